@@ -1,0 +1,42 @@
+#pragma once
+
+/// Differential growth bends the rest state (model.md 4 and 6, model 1: intrinsic proprioception).
+///
+/// Per unit growth strain the bending components b0 = (k1, k2) of the rest curvature obey db0 = f - (gamma / R) b0,
+/// where f = (-Delta2, Delta1) / R and Delta is the differential growth vector in the actual material frame of the
+/// bend.
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "sensory_growth/growth/cues.h"
+#include "sensory_growth/growth/elongation.h"
+#include "sensory_growth/rod/rod.h"
+
+namespace sensory_growth::growth {
+
+/// What makes the organ bend.
+struct BendingLaw {
+  Sensitivities sensitivities;
+  double proprioception_length = 0.0;  ///< gamma [m]; gamma / R straightens the organ per unit growth strain
+};
+
+/// Rest radius at a bend, averaged over its two half cells [m].
+double bendRadius(const rod::Rod& rod, std::size_t bend);
+
+/// f of every bend [1/m per unit growth strain], sensed with the actual frames and positions; size n.
+void drive(const BendingLaw& law, const Environment& environment, const rod::Rod& rod, std::vector<Eigen::Vector2d>& f);
+
+/// First-order exponential step of the rest curvature with the drive held at f: exact in the stiff proprioceptive term.
+void predict(rod::Rod& rod, const BendingLaw& law, const GrowthStrain& strain, const std::vector<Eigen::Vector2d>& f);
+
+/// Correction that makes the step second order, given the drive f0 at its start and f1 at its predicted end.
+void correct(rod::Rod& rod, const BendingLaw& law, const GrowthStrain& strain, const std::vector<Eigen::Vector2d>& f0,
+             const std::vector<Eigen::Vector2d>& f1);
+
+/// phi1(G) = (1 - exp(-G)) / G and phi2(G) = (exp(-G) - 1 + G) / G^2, smooth through zero (Cox & Matthews 2002).
+double phi1(double G);
+double phi2(double G);
+
+}  // namespace sensory_growth::growth

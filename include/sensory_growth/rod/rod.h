@@ -1,0 +1,81 @@
+#pragma once
+
+/// The state of one rod (model.md 1): a chain of n elements between n + 1 vertices, clamped at its base.
+///
+/// Element e joins vertices e and e + 1. Bend j >= 1 sits at vertex j between elements j - 1 and j; bend 0 joins the
+/// base frame to element 0 over half a cell, which keeps the clamp second order (model.md 1.4). Frames have the
+/// directors d1, d2, d3 as columns; d3 is the tangent of the unsheared rod and points from base to apex. "Rest" is the
+/// stress-free state with growth included. SI units; vectors called curvature and strain are components in the material
+/// frame.
+
+#include <cstddef>
+#include <vector>
+
+#include "sensory_growth/rod/rotations.h"
+#include "sensory_growth/rod/section.h"
+
+namespace sensory_growth::rod {
+
+/// Position and orientation of a cross-section in the world.
+struct Pose {
+  Vector3 position = Vector3::Zero();         ///< [m]
+  Quaternion frame = Quaternion::Identity();  ///< columns are d1, d2, d3
+};
+
+struct Element {
+  double rest_length = 0.0;       ///< growth included [m]
+  double reference_length = 0.0;  ///< rest length of the same tissue before any growth [m]
+  Section section;
+  Vector3 strain = Vector3::Zero();       ///< sigma: shear along d1, d2 and stretch along d3 [-]
+  Vector3 rest_strain = Vector3::Zero();  ///< sigma of the stress-free element [-]
+  Quaternion frame = Quaternion::Identity();
+
+  double mass() const { return section.lineDensity() * rest_length; }  ///< [kg]
+};
+
+struct Bend {
+  Vector3 curvature = Vector3::Zero();       ///< kappa: turning about d1, d2 and twist per unit rest length [1/m]
+  Vector3 rest_curvature = Vector3::Zero();  ///< kappa of the stress-free rod [1/m]
+};
+
+struct Vertex {
+  Vector3 position = Vector3::Zero();  ///< [m]
+  double label = 0.0;                  ///< material coordinate in [0, 1], fixed for life
+};
+
+/// The strains (curvature, strain) are the state; frames and positions follow from them and the base by rebuild().
+struct Rod {
+  Pose base;                      ///< the clamp, at vertex 0
+  std::vector<Element> elements;  ///< n
+  std::vector<Bend> bends;        ///< n
+  std::vector<Vertex> vertices;   ///< n + 1
+
+  std::size_t size() const { return elements.size(); }
+
+  double restLength() const;                     ///< rest arc length of the whole rod [m]
+  double length() const;                         ///< current length of the polyline [m]
+  double voronoiLength(std::size_t bend) const;  ///< rest length that bend answers for [m]
+  double vertexMass(std::size_t vertex) const;   ///< half the mass of each neighbouring element [kg]
+
+  /// Frame at bend j: half-way along the geodesic between its neighbours. Everything sensed at a bend uses this frame.
+  Quaternion bendFrame(std::size_t bend) const;
+
+  /// Position of the last vertex with the frame extrapolated over the last half cell (model.md 1.4).
+  Pose apex() const;
+
+  /// Pose at rest arc length s [m], clamped to [0, restLength()]: position linear along the element, frame along the
+  /// geodesic.
+  Pose at(double s) const;
+
+  /// Recomputes frames and positions from base, curvature and strain.
+  void rebuild();
+
+  /// Recomputes positions from base, frames and strain.
+  void rebuildPositions();
+};
+
+/// A straight, stress-free rod of `elements` equal elements. Throws std::invalid_argument unless length, radius,
+/// elements and the moduli are positive and finite.
+Rod straightRod(const Pose& base, double length, std::size_t elements, const Section& section);
+
+}  // namespace sensory_growth::rod

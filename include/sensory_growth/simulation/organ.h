@@ -1,0 +1,76 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sensory_growth/growth/differential_growth.h"
+#include "sensory_growth/growth/elongation.h"
+#include "sensory_growth/mechanics/energy.h"
+#include "sensory_growth/mechanics/static_equilibrium.h"
+#include "sensory_growth/rod/rod.h"
+#include "sensory_growth/simulation/scenario.h"
+
+namespace sensory_growth::simulation {
+
+/// Why a step of an organ was given up.
+enum class OrganFault {
+  none,
+  relaxation,   ///< no equilibrium, however small the part of the step
+  step_limits,  ///< the step limits ask for smaller parts than Stepping allows: the step is far too long
+};
+
+/// What happened in one step of one organ.
+struct OrganReport {
+  OrganFault fault = OrganFault::none;
+  mechanics::RelaxationReport relaxation;  ///< of the last relaxation
+  int substeps = 0;                        ///< parts the step was cut into
+  int retries = 0;                         ///< parts that were cut again because relaxation failed
+  int newton_iterations = 0;               ///< of all relaxations
+  std::size_t divisions = 0;
+
+  bool ok() const { return fault == OrganFault::none; }
+};
+
+/// One sentence for people, with the figures.
+std::string describe(const OrganReport& report);
+
+/// One organ: it grows a little, then relaxes to equilibrium (the draft's Figure 1).
+class Organ {
+ public:
+  /// Builds the organ and relaxes it under its load. Throws std::invalid_argument if it cannot be built, naming the
+  /// fault.
+  Organ(const OrganScenario& organ, const Scenario& scenario);
+
+  /// Advances by dt [s] of growth time in as many parts as the step limits ask for. On failure (report.ok() is false)
+  /// the organ is left as it was before the call.
+  const OrganReport& advance(double dt, const growth::Environment& environment);
+
+  /// Takes back the last advance().
+  void undo();
+
+  const OrganScenario& scenario() const { return scenario_; }
+  const rod::Rod& rod() const { return rod_; }
+  const OrganReport& report() const { return report_; }
+  mechanics::Energy energy() const { return mechanics::energy(rod_, loads_); }
+
+  /// Relative elongation rate of every element as the organ stands [1/s].
+  std::vector<double> growthRates() const;
+
+ private:
+  double longestPart(const growth::Environment& environment);
+  bool growAndRelax(double dt, const growth::Environment& environment);
+  bool relax();
+
+  OrganScenario scenario_;
+  Stepping stepping_;
+  RelaxationMethod method_;
+  mechanics::Loads loads_;
+  rod::Rod rod_, before_step_, before_part_;
+  mechanics::StaticEquilibrium equilibrium_;
+  growth::Elongation elongation_;
+  std::vector<Eigen::Vector2d> drive_, new_drive_;
+  std::vector<double> rates_;
+  OrganReport report_;
+};
+
+}  // namespace sensory_growth::simulation

@@ -1,0 +1,76 @@
+#pragma once
+
+/// Everything that defines a simulation before it starts. Plain data in SI units; simulation/scenario_yaml.h reads it.
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "sensory_growth/growth/differential_growth.h"
+#include "sensory_growth/growth/profile.h"
+#include "sensory_growth/mechanics/static_equilibrium.h"
+#include "sensory_growth/rod/division.h"
+#include "sensory_growth/rod/rod.h"
+#include "sensory_growth/simulation/stimuli.h"
+
+namespace sensory_growth::simulation {
+
+/// How the organ finds its shape once the rest state has grown.
+enum class RelaxationMethod {
+  statics,     ///< elastic equilibrium at every step
+  kinematics,  ///< no elasticity: the organ is its rest state
+};
+
+struct OrganScenario {
+  std::string id;  ///< a valid ROS graph name: letters, digits, '_', starts with a letter
+  rod::Pose base;
+  double length = 0.0;       ///< rest length at the start [m]
+  std::size_t elements = 0;  ///< at the start
+  rod::Section section;
+  rod::Vector3 tip_force = rod::Vector3::Zero();       ///< dead load on the apex [N]
+  rod::Vector3 rest_curvature = rod::Vector3::Zero();  ///< of every bend at the start, material components [1/m]
+
+  growth::Profile profile = growth::UniformProfile{};
+  bool elongation = true;  ///< off: the organ bends by growth but keeps its length (the AC model)
+  growth::BendingLaw bending;
+
+  double longest_element = 0.0;  ///< longer elements divide [m]; infinity: never
+  rod::DivisionMode division = rod::DivisionMode::keep_strain;
+};
+
+/// Limits on a growth step; longer steps are cut into equal parts (model.md 11.2). Infinity switches a limit off.
+struct StepLimits {
+  double tip_advance = 0.5;     ///< of the tip, as a fraction of longest_element [-]
+  double growth_strain = 0.05;  ///< of any element [-]
+  double bend_angle = 0.02;     ///< turning of one bend [rad]
+  double total_angle = 0.1;     ///< summed turning of all bends [rad]
+  double smallest_part =
+      1.0 / 4096.0;  ///< of a step that failing relaxations may cut it to, before the step is given up [-]
+};
+
+struct Stepping {
+  double step = 0.0;         ///< growth time between two published states and between stimulus changes [s]
+  bool second_order = true;  ///< predictor-corrector; false stops after the predictor
+  StepLimits limits;
+};
+
+/// A stimulus command with the growth time [s] from which it holds.
+struct TimedStimulus {
+  double time = 0.0;
+  StimulusCommand command;
+};
+
+struct Scenario {
+  std::string name;
+  std::string description;                   ///< what one should see; may be empty
+  rod::Vector3 gravity = {0.0, 0.0, -9.81};  ///< [m/s^2]; its direction is what organs sense as down
+  bool weight = true;                        ///< off: gravity is sensed but does not load the organs
+  RelaxationMethod relaxation = RelaxationMethod::statics;
+  mechanics::RelaxationSettings relaxation_settings;
+  Stepping stepping;
+  double duration = 0.0;  ///< growth time after which an unattended run ends [s]; 0: never
+  std::vector<OrganScenario> organs;
+  std::vector<TimedStimulus> protocol;  ///< in order of time; entries at time 0 are the initial stimuli
+};
+
+}  // namespace sensory_growth::simulation

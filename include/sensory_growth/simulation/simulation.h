@@ -1,0 +1,70 @@
+#pragma once
+
+/// Organs that grow and relax together under shared stimuli.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "sensory_growth/simulation/organ.h"
+#include "sensory_growth/simulation/scenario.h"
+
+namespace sensory_growth::simulation {
+
+/// A stimulus command as it was taken, with the step before which it took effect.
+struct AppliedStimulus {
+  std::uint64_t step = 0;  ///< index of the state that was current when it was applied
+  StimulusCommand command;
+  std::string refusal;  ///< why it changed nothing; empty if it was applied
+};
+
+struct StepReport {
+  bool ok = true;
+  std::string message;  ///< names organ, element, reason and figures when not ok
+};
+
+/// Not thread-safe; one thread owns it. Equal scenarios and equal commands at equal steps give equal bits.
+class Simulation {
+ public:
+  /// Builds every organ in equilibrium at step 0, with the stimuli of time 0 in force.
+  /// Throws std::invalid_argument naming the organ and the fault.
+  explicit Simulation(Scenario scenario);
+
+  /// Advances every organ by one step, then takes the commands of the protocol that have fallen due. When an organ fails, no
+  /// organ and no counter moves and the report says why.
+  StepReport step();
+
+  /// Applies a command now, between two steps, and keeps it in applied().
+  AppliedStimulus apply(const StimulusCommand& command);
+
+  /// Back to step 0 of the scenario; everything applied since is forgotten.
+  void reset();
+
+  const Scenario& scenario() const { return scenario_; }
+  const std::vector<Organ>& organs() const { return organs_; }
+  const growth::Environment& environment() const { return environment_; }
+
+  /// Steps taken since the start or the last reset.
+  std::uint64_t stepIndex() const { return step_index_; }
+
+  /// Growth time [s]: the step index times the step, never a running sum.
+  double time() const { return static_cast<double>(step_index_) * scenario_.stepping.step; }
+
+  /// True once the duration of the scenario is reached (never if it has none).
+  bool finished() const;
+
+  /// Commands taken since the previous call, in order: those of the protocol and those given to apply().
+  std::vector<AppliedStimulus> takeApplied();
+
+ private:
+  void applyDue();
+
+  Scenario scenario_;
+  growth::Environment environment_;
+  std::vector<Organ> organs_;
+  std::uint64_t step_index_ = 0;
+  std::size_t next_in_protocol_ = 0;
+  std::vector<AppliedStimulus> applied_;
+};
+
+}  // namespace sensory_growth::simulation

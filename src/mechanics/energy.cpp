@@ -1,0 +1,34 @@
+#include "sensory_growth/mechanics/energy.h"
+
+namespace sensory_growth::mechanics {
+
+using rod::Vector3;
+
+Vector3 bendStiffness(const rod::Rod& rod, std::size_t bend) {
+  const rod::Element& above = rod.elements[bend];
+  if (bend == 0) return above.section.bendStiffness();
+  const rod::Element& below = rod.elements[bend - 1];
+  const Vector3 compliance = below.rest_length * below.section.bendStiffness().cwiseInverse() +
+                             above.rest_length * above.section.bendStiffness().cwiseInverse();
+  return (below.rest_length + above.rest_length) * compliance.cwiseInverse();
+}
+
+Energy energy(const rod::Rod& rod, const Loads& loads) {
+  Energy sum;
+  for (std::size_t j = 0; j < rod.size(); ++j) {
+    const Vector3 bending = rod.bends[j].curvature - rod.bends[j].rest_curvature;
+    sum.bending += 0.5 * rod.voronoiLength(j) * bending.dot(bendStiffness(rod, j).cwiseProduct(bending));
+  }
+  for (const rod::Element& element : rod.elements) {
+    if (element.section.inextensible) continue;
+    const Vector3 stretch = element.strain - element.rest_strain;
+    sum.stretching +=
+        0.5 * element.rest_length * stretch.cwiseAbs2().dot(element.section.stretchCompliance().cwiseInverse());
+  }
+  for (std::size_t v = 0; v <= rod.size(); ++v) {
+    sum.load -= vertexForce(rod, loads, v).dot(rod.vertices[v].position);
+  }
+  return sum;
+}
+
+}  // namespace sensory_growth::mechanics

@@ -1,0 +1,20 @@
+#include "sensory_growth/mechanics/loads.h"
+
+namespace sensory_growth::mechanics {
+
+rod::Vector3 vertexForce(const rod::Rod& rod, const Loads& loads, std::size_t vertex) {
+  rod::Vector3 force = rod.vertexMass(vertex) * loads.gravity;
+  if (vertex == rod.size()) force += loads.tip_force;
+  return force;
+}
+
+void elementForces(const rod::Rod& rod, const Loads& loads, std::vector<rod::Vector3>& forces) {
+  forces.resize(rod.size());
+  rod::Vector3 beyond = rod::Vector3::Zero();
+  for (std::size_t e = rod.size(); e-- > 0;) {
+    beyond += vertexForce(rod, loads, e + 1);
+    forces[e] = beyond;
+  }
+}
+
+}  // namespace sensory_growth::mechanics

@@ -1,0 +1,157 @@
+#include "sensory_growth/simulation/organ.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+#include "sensory_growth/rod/division.h"
+
+namespace sensory_growth::simulation {
+
+Organ::Organ(const OrganScenario& organ, const Scenario& scenario)
+    : scenario_(organ),
+      stepping_(scenario.stepping),
+      method_(scenario.relaxation),
+      equilibrium_(scenario.relaxation_settings) {
+  if (scenario.weight) loads_.gravity = scenario.gravity;
+  loads_.tip_force = organ.tip_force;
+
+  rod_ = rod::straightRod(organ.base, organ.length, organ.elements, organ.section);
+  for (rod::Bend& bend : rod_.bends) bend.curvature = bend.rest_curvature = organ.rest_curvature;
+  rod_.rebuild();
+  report_.divisions = rod::divideLongElements(rod_, organ.longest_element, organ.division);
+  if (!relax()) {
+    report_.fault = OrganFault::relaxation;
+    throw std::invalid_argument("organ '" + organ.id + "' has no equilibrium to start from: " + describe(report_));
+  }
+  before_step_ = rod_;
+}
+
+const OrganReport& Organ::advance(double dt, const growth::Environment& environment) {
+  const double smallest = stepping_.limits.smallest_part * dt;
+  before_step_ = rod_;
+  report_ = {};
+  double remaining = dt;
+  double longest_allowed = dt;
+  while (remaining > 0.0) {
+    const double limit = std::min(longestPart(environment), longest_allowed);
+    if (!(limit >= smallest)) {
+      report_.fault = longest_allowed < smallest ? OrganFault::relaxation : OrganFault::step_limits;
+      rod_ = before_step_;
+      return report_;
+    }
+    // A remainder is cut into equal parts, so that none is a sliver.
+    const double parts = std::max(1.0, std::ceil(remaining / limit * (1.0 - 1e-12)));
+    const double part = remaining / parts;
+
+    before_part_ = rod_;
+    if (growAndRelax(part, environment)) {
+      remaining = parts > 1.0 ? remaining - part : 0.0;
+      longest_allowed = dt;
+      ++report_.substeps;
+    } else {
+      rod_ = before_part_;
+      longest_allowed = 0.5 * part;
+      ++report_.retries;
+    }
+  }
+  return report_;
+}
+
+void Organ::undo() { rod_ = before_step_; }
+
+bool Organ::growAndRelax(double dt, const growth::Environment& environment) {
+  const growth::GrowthStrain& strain = scenario_.elongation
+                                           ? elongation_.strain(scenario_.profile, rod_, dt)
+                                           : elongation_.strainAtFixedLength(scenario_.profile, rod_, dt);
+  growth::drive(scenario_.bending, environment, rod_, drive_);
+
+  if (scenario_.elongation) growth::elongate(rod_, strain);
+  growth::predict(rod_, scenario_.bending, strain, drive_);
+  rod_.rebuild();
+  if (!relax()) return false;
+
+  if (stepping_.second_order) {
+    growth::drive(scenario_.bending, environment, rod_, new_drive_);
+    growth::correct(rod_, scenario_.bending, strain, drive_, new_drive_);
+    rod_.rebuild();
+    if (!relax()) return false;
+  }
+
+  const std::size_t divisions = rod::divideLongElements(rod_, scenario_.longest_element, scenario_.division);
+  report_.divisions += divisions;
+  return divisions == 0 || relax();
+}
+
+bool Organ::relax() {
+  if (method_ == RelaxationMethod::kinematics) {
+    for (rod::Bend& bend : rod_.bends) bend.curvature = bend.rest_curvature;
+    for (rod::Element& element : rod_.elements) element.strain = element.rest_strain;
+    rod_.rebuild();
+    return true;
+  }
+  report_.relaxation = equilibrium_.relax(rod_, loads_);
+  report_.newton_iterations += report_.relaxation.iterations;
+  return report_.relaxation.ok();
+}
+
+double Organ::longestPart(const growth::Environment& environment) {
+  const StepLimits& limits = stepping_.limits;
+  const growth::BendingLaw& law = scenario_.bending;
+  growth::elementRates(scenario_.profile, rod_, rates_);
+  growth::drive(law, environment, rod_, drive_);
+
+  double fastest_growth = 0.0;
+  double fastest_bend = 0.0;
+  double total_turning = 0.0;
+  double tip_speed = 0.0;
+  for (std::size_t j = 0; j < rod_.size(); ++j) {
+    const double length = rod_.elements[j].rest_length;
+    const double below = j > 0 ? rod_.elements[j - 1].rest_length : 0.0;
+    const double below_rate = j > 0 ? rates_[j - 1] : 0.0;
+    const double bend_rate = (below * below_rate + length * rates_[j]) / (below + length);
+    const double straightening = law.proprioception_length / growth::bendRadius(rod_, j);
+    const Eigen::Vector2d slope = drive_[j] - straightening * rod_.bends[j].rest_curvature.head<2>();
+    const double turning = rod_.voronoiLength(j) * bend_rate * slope.norm();
+    fastest_growth = std::max(fastest_growth, rates_[j]);
+    fastest_bend = std::max(fastest_bend, turning);
+    total_turning += turning;
+    tip_speed += length * rates_[j];
+  }
+
+  const auto longest = [](double limit, double speed) {
+    return speed > 0.0 ? limit / speed : std::numeric_limits<double>::infinity();
+  };
+  double dt = longest(limits.growth_strain, fastest_growth);
+  if (scenario_.elongation) dt = std::min(dt, longest(limits.tip_advance * scenario_.longest_element, tip_speed));
+  dt = std::min(dt, longest(limits.bend_angle, fastest_bend));
+  return std::min(dt, longest(limits.total_angle, total_turning));
+}
+
+std::vector<double> Organ::growthRates() const {
+  std::vector<double> rates;
+  growth::elementRates(scenario_.profile, rod_, rates);
+  return rates;
+}
+
+std::string describe(const OrganReport& report) {
+  std::ostringstream out;
+  switch (report.fault) {
+    case OrganFault::none:
+      out << "ok";
+      break;
+    case OrganFault::relaxation:
+      out << "relaxation failed";
+      break;
+    case OrganFault::step_limits:
+      out << "the step limits ask for parts smaller than stepping allows; shorten the step or relax the limits";
+      break;
+  }
+  out << " (" << report.substeps << " parts done, " << report.retries << " cut again; last relaxation "
+      << mechanics::describe(report.relaxation) << ")";
+  return out.str();
+}
+
+}  // namespace sensory_growth::simulation

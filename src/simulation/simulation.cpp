@@ -1,0 +1,64 @@
+#include "sensory_growth/simulation/simulation.h"
+
+#include <stdexcept>
+#include <utility>
+
+namespace sensory_growth::simulation {
+namespace {
+
+std::vector<Organ> buildOrgans(const Scenario& scenario) {
+  std::vector<Organ> organs;
+  organs.reserve(scenario.organs.size());
+  for (const OrganScenario& organ : scenario.organs) organs.emplace_back(organ, scenario);
+  return organs;
+}
+
+}  // namespace
+
+Simulation::Simulation(Scenario scenario) : scenario_(std::move(scenario)) {
+  if (!(scenario_.stepping.step > 0.0)) throw std::invalid_argument("stepping.step must be positive");
+  reset();
+}
+
+void Simulation::reset() {
+  organs_ = buildOrgans(scenario_);
+  environment_ = {};
+  environment_.down = scenario_.gravity.stableNormalized();
+  step_index_ = 0;
+  next_in_protocol_ = 0;
+  applied_.clear();
+  applyDue();
+}
+
+StepReport Simulation::step() {
+  for (std::size_t i = 0; i < organs_.size(); ++i) {
+    const OrganReport& report = organs_[i].advance(scenario_.stepping.step, environment_);
+    if (report.ok()) continue;
+    for (std::size_t done = 0; done < i; ++done) organs_[done].undo();
+    return {false, "organ '" + organs_[i].scenario().id + "' failed in step " + std::to_string(step_index_ + 1) + ": " +
+                       describe(report)};
+  }
+  ++step_index_;
+  applyDue();
+  return {};
+}
+
+AppliedStimulus Simulation::apply(const StimulusCommand& command) {
+  const std::optional<std::string> refusal = simulation::apply(command, environment_);
+  applied_.push_back({step_index_, command, refusal.value_or("")});
+  return applied_.back();
+}
+
+bool Simulation::finished() const { return scenario_.duration > 0.0 && time() >= scenario_.duration * (1.0 - 1e-12); }
+
+std::vector<AppliedStimulus> Simulation::takeApplied() { return std::exchange(applied_, {}); }
+
+void Simulation::applyDue() {
+  // A command takes effect at the first step boundary that is not earlier than its time.
+  const double now = time() + 1e-9 * scenario_.stepping.step;
+  while (next_in_protocol_ < scenario_.protocol.size() && scenario_.protocol[next_in_protocol_].time <= now) {
+    apply(scenario_.protocol[next_in_protocol_++].command);
+  }
+}
+
+}  // namespace sensory_growth::simulation

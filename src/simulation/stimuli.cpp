@@ -1,0 +1,80 @@
+#include "sensory_growth/simulation/stimuli.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+namespace sensory_growth::simulation {
+namespace {
+
+std::string text(double value) {
+  std::ostringstream out;
+  out << value;
+  return out.str();
+}
+
+std::string text(const rod::Vector3& v) { return "(" + text(v.x()) + ", " + text(v.y()) + ", " + text(v.z()) + ")"; }
+
+template <typename Stimulus>
+std::optional<std::string> applyTo(std::vector<Stimulus>& stimuli, const StimulusCommand& command,
+                                   const Stimulus& stimulus) {
+  const auto found =
+      std::find_if(stimuli.begin(), stimuli.end(), [&](const Stimulus& s) { return s.id == command.id; });
+  const bool exists = found != stimuli.end();
+  if (!exists && command.operation != StimulusOperation::add) {
+    return std::string("there is no ") + name(command.kind) + " '" + command.id + "' to " + name(command.operation);
+  }
+  if (command.operation == StimulusOperation::remove) {
+    stimuli.erase(found);
+  } else if (exists) {
+    *found = stimulus;
+  } else {
+    stimuli.push_back(stimulus);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+const char* name(StimulusKind kind) { return kind == StimulusKind::point_source ? "point_source" : "light_direction"; }
+
+const char* name(StimulusOperation operation) {
+  switch (operation) {
+    case StimulusOperation::add:
+      return "add";
+    case StimulusOperation::change:
+      return "change";
+    case StimulusOperation::remove:
+      return "remove";
+  }
+  return "?";
+}
+
+std::optional<std::string> findFault(const StimulusCommand& command) {
+  if (command.id.empty()) return "id is empty; a stimulus needs a name";
+  if (command.operation == StimulusOperation::remove) return std::nullopt;
+  const bool is_direction = command.kind == StimulusKind::light_direction;
+  const std::string what = is_direction ? "direction" : "position";
+  if (!command.vector.allFinite()) return what + " " + text(command.vector) + " is not finite";
+  if (is_direction && !(command.vector.stableNorm() > 0.0)) return what + " has zero length";
+  if (!is_direction && command.vector.cwiseAbs().maxCoeff() > kMaxPosition) {
+    return what + " " + text(command.vector) + " lies beyond +-" + text(kMaxPosition) + " m";
+  }
+  if (!(std::abs(command.strength) <= kMaxStrength)) {
+    return "strength " + text(command.strength) + " is not in [" + text(-kMaxStrength) + ", " + text(kMaxStrength) +
+           "]";
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> apply(const StimulusCommand& command, growth::Environment& environment) {
+  if (auto fault = findFault(command)) return fault;
+  if (command.kind == StimulusKind::point_source) {
+    return applyTo(environment.point_sources, command, {command.id, command.vector, command.strength});
+  }
+  return applyTo(environment.light_directions, command,
+                 {command.id, command.vector.stableNormalized(), command.strength});
+}
+
+}  // namespace sensory_growth::simulation
