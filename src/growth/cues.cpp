@@ -12,8 +12,8 @@ rod::Vector3 differentialGrowth(const Sensitivities& sensitivities, const Enviro
   }
   for (const PointSource& source : environment.point_sources) {
     const rod::Vector3 towards = source.position - position;
-    const double distance = std::hypot(towards.norm(), sensitivities.softening_length);
-    if (distance > 0.0) delta += sensitivities.point_source * source.strength / distance * towards;
+    const double distance = std::hypot(towards.stableNorm(), sensitivities.softening_length);
+    if (distance > 0.0) delta += sensitivities.point_source * source.strength * (towards / distance);
   }
   return delta;
 }

@@ -48,7 +48,7 @@ void correct(rod::Rod& rod, const BendingLaw& law, const GrowthStrain& strain, c
   }
 }
 
-double phi1(double G) { return std::abs(G) < 1e-4 ? 1.0 - G / 2.0 + G * G / 6.0 : -std::expm1(-G) / G; }
+double phi1(double G) { return G == 0.0 ? 1.0 : -std::expm1(-G) / G; }
 
 double phi2(double G) {
   // The closed form loses digits to cancellation well before its series loses accuracy.

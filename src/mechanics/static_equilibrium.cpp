@@ -71,13 +71,15 @@ struct StaticEquilibrium::Workspace {
 
   double residual() const { return largestRotation(gradient) / energy.coupleScale(); }
 
-  /// Newton direction; an indefinite Hessian is shifted until it is positive. The shift is remembered from one call to
-  /// the next.
+  /// Newton direction; an indefinite Hessian is shifted until it is positive. The shift is remembered between
+  /// iterations. The first one vanishes with the residual: at a buckled equilibrium the free azimuth makes the Hessian
+  /// singular, and a shift that stayed would stall the last iterations.
   void newtonDirection(double& shift) {
     const double scale = hessian.largestDiagonal();
+    const double first = 1e-6 * std::min(1.0, 1e5 * residual());
     double tau = shift;
-    while (!factor.factor(hessian, tau * scale)) tau = tau > 0.0 ? 4.0 * tau : 1e-6;
-    shift = tau > 4e-6 ? tau / 4.0 : 0.0;
+    while (!factor.factor(hessian, tau * scale)) tau = tau > 0.0 ? 4.0 * tau : first;
+    shift = tau > 4.0 * first ? tau / 4.0 : 0.0;
     step = gradient;
     for (Vector3& w : step) w = -w;
     factor.solve(step);
@@ -97,18 +99,26 @@ struct StaticEquilibrium::Workspace {
     return false;
   }
 
-  /// Follows the unstable direction as long as the energy falls.
+  /// Moves along the unstable direction to about the least energy: doubling until it rises, then through three points.
   void leaveAlong(const RotationField& direction, double value) {
     step = direction;
     const double unit = 1.0 / largestRotation(step);
-    double best = 0.0;
-    for (double angle = 0.02; angle < 1.5; angle *= 2.0) {
-      const double trial_value = tryStep(angle * unit);
-      if (trial_value >= value) break;
-      value = trial_value;
-      best = angle;
+    double angle = 0.02;
+    double before = value, here = tryStep(angle * unit), beyond = tryStep(2.0 * angle * unit);
+    while (beyond < here && angle < 0.75) {
+      angle *= 2.0;
+      before = here;
+      here = beyond;
+      beyond = tryStep(2.0 * angle * unit);
     }
-    tryStep((best > 0.0 ? best : 0.02) * unit);
+    // Vertex of the parabola through angle / 2, angle and 2 angle (0, angle and 2 angle if the first trial was beyond
+    // it).
+    const double width = angle > 0.02 ? 0.5 * angle : angle;
+    const double left = (here - before) / width;
+    const double right = (beyond - here) / angle;
+    const double curvature = (right - left) / (0.5 * (width + angle));
+    if (curvature > 0.0) angle = std::clamp(angle - 0.5 * width - left / curvature, 0.25 * angle, 2.0 * angle);
+    tryStep(angle * unit);
     frames.swap(trial);
   }
 
@@ -146,7 +156,10 @@ RelaxationReport StaticEquilibrium::relax(rod::Rod& rod, const Loads& loads) {
     if (report.residual < settings_.tolerance) {
       const Eigenpair lowest = lowestEigenpair(rod.base.frame, w.frames, w.hessian);
       report.lowest_eigenvalue = lowest.value;
-      if (lowest.value >= -kUnstable * w.energy.bendingScale()) break;
+      // What is left of the gradient shows up as an eigenvalue of the free azimuth of a buckled column; it is no
+      // instability.
+      const double neutral = std::max(kUnstable * w.energy.bendingScale(), 10.0 * largestRotation(w.gradient));
+      if (lowest.value >= -neutral) break;
       if (report.branch_switches == settings_.max_branch_switches) return stop(RelaxationReason::unstable);
       ++report.branch_switches;
       w.leaveAlong(lowest.vector, value);

@@ -94,6 +94,7 @@ bool Organ::relax() {
   }
   report_.relaxation = equilibrium_.relax(rod_, loads_);
   report_.newton_iterations += report_.relaxation.iterations;
+  report_.branch_switches += report_.relaxation.branch_switches;
   return report_.relaxation.ok();
 }
 

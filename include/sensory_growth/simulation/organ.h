@@ -26,6 +26,7 @@ struct OrganReport {
   int substeps = 0;                        ///< parts the step was cut into
   int retries = 0;                         ///< parts that were cut again because relaxation failed
   int newton_iterations = 0;               ///< of all relaxations
+  int branch_switches = 0;                 ///< unstable equilibria left, in all relaxations
   std::size_t divisions = 0;
 
   bool ok() const { return fault == OrganFault::none; }

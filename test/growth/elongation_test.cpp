@@ -1,0 +1,115 @@
+// Elongation of the rest state: V12a, V12b, V12c (flat), V12d of model.md 18 and the order of the integrator.
+
+#include "sensory_growth/growth/elongation.h"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "support/rods.h"
+
+namespace sensory_growth::growth {
+namespace {
+
+rod::Rod organ(double length, std::size_t elements = 20) {
+  return rod::straightRod({}, length, elements, support::section(0.01, 1.0, 1.0));
+}
+
+double grownLength(const Profile& profile, double length, double time, double dt) {
+  rod::Rod rod = organ(length);
+  Elongation elongation;
+  const auto steps = std::lround(time / dt);
+  for (long i = 0; i < steps; ++i) elongate(rod, elongation.strain(profile, rod, dt));
+  return rod.restLength();
+}
+
+TEST(UniformGrowth, IsExponential) {
+  EXPECT_NEAR(grownLength(UniformProfile{0.7}, 0.3, 2.0, 0.1), 0.3 * std::exp(1.4), 1e-12);  // V12a
+}
+
+TEST(LogisticGrowth, ReachesTheReferenceLengths) {
+  const Profile profile = LogisticProfile{1.0, 1.0, 15.0};  // V12b
+  EXPECT_NEAR(grownLength(profile, 1.0, 5.0, 0.1), 5.996252734, 1e-5);
+  EXPECT_NEAR(grownLength(profile, 0.2, 5.0, 0.1), 4.382359091, 1e-5);
+  EXPECT_NEAR(grownLength(profile, 5.0, 2.0, 0.1), 7.000000041, 1e-5);
+}
+
+TEST(LogisticGrowth, IntegratesAtFourthOrder) {
+  const auto error = [](double dt) {
+    return grownLength(LogisticProfile{1.0, 1.0, 15.0}, 2.0, 2.0, dt) -
+           grownLength(LogisticProfile{1.0, 1.0, 15.0}, 2.0, 2.0, 0.001);
+  };
+  EXPECT_LT(std::abs(error(0.1)), 4e-6);  // model.md 3.3
+  EXPECT_LT(std::abs(error(0.025)), 2e-8);
+  EXPECT_NEAR(support::order(error(0.05), error(0.025)), 4.0, 0.4);
+}
+
+TEST(FlatGrowth, ReachesTheReferenceLengths) {
+  const Profile profile = ApicalFlatProfile{1.0, 1.0};  // V12c
+  EXPECT_NEAR(grownLength(profile, 0.5, 2.0, 0.01), 2.306852819, 1e-3);
+  EXPECT_NEAR(grownLength(profile, 2.0, 2.0, 0.01), 4.0, 1e-3);
+}
+
+TEST(Growth, CarriesBendingCurvatureAndTwistAngle) {
+  std::mt19937 generator(3);
+  rod::Rod rod = support::randomRod(generator, 10);
+  const rod::Rod before = rod;
+  Elongation elongation;
+  elongate(rod, elongation.strain(UniformProfile{1.0}, rod, 0.8));
+  for (std::size_t j = 0; j < rod.size(); ++j) {
+    EXPECT_EQ(rod.bends[j].rest_curvature.x(), before.bends[j].rest_curvature.x());
+    EXPECT_EQ(rod.bends[j].rest_curvature.y(), before.bends[j].rest_curvature.y());
+    EXPECT_NEAR(rod.bends[j].rest_curvature.z() * rod.voronoiLength(j),
+                before.bends[j].rest_curvature.z() * before.voronoiLength(j), 1e-14);
+    EXPECT_NEAR((rod.bends[j].curvature - rod.bends[j].rest_curvature).z(),
+                (before.bends[j].curvature - before.bends[j].rest_curvature).z(), 1e-14);
+  }
+}
+
+TEST(Growth, DriftsPassively) {
+  rod::Rod rod = organ(1.0, 50);  // V12d: the turning angle grows with the length at constant curvature
+  for (rod::Bend& b : rod.bends) b.rest_curvature = b.curvature = {0.0, 0.5, 0.0};
+  Elongation elongation;
+  for (int i = 0; i < 10; ++i) elongate(rod, elongation.strain(UniformProfile{1.0}, rod, 0.1));
+  rod.rebuild();
+  const rod::Vector3 tangent = rod.apex().frame * rod::Vector3::UnitZ();
+  EXPECT_NEAR(std::atan2(tangent.x(), tangent.z()), 1.359140914, 1e-9);
+  EXPECT_NEAR(std::atan2(tangent.x(), tangent.z()), 0.5 * std::exp(1.0), 1e-12);
+}
+
+TEST(Growth, LengthsStayPositiveForAnyStep) {
+  Elongation elongation;
+  for (const double dt : {1e-6, 1.0, 10.0}) {
+    rod::Rod rod = organ(0.3);
+    elongate(rod, elongation.strain(LogisticProfile{1.0, 1.0, 15.0}, rod, dt));
+    for (const rod::Element& e : rod.elements) EXPECT_GT(e.rest_length, 0.0);
+  }
+}
+
+TEST(Growth, StrainOfABendIsTheLengthWeightedMeanOfItsElements) {
+  std::mt19937 generator(5);
+  const rod::Rod rod = support::randomRod(generator, 10);
+  Elongation elongation;
+  const double dt = 1e-6;
+  const GrowthStrain free = elongation.strain(LogisticProfile{1.0, 0.4, 5.0}, rod, dt);
+  const GrowthStrain held = elongation.strainAtFixedLength(LogisticProfile{1.0, 0.4, 5.0}, rod, dt);
+  for (std::size_t j = 0; j < rod.size(); ++j) {
+    EXPECT_NEAR(free.elements[j] / dt, held.elements[j] / dt, 1e-5);
+    EXPECT_NEAR(free.bends[j] / dt, held.bends[j] / dt, 1e-5);
+  }
+}
+
+TEST(Growth, TheWholeOrganElongatesAtTheVelocityOfItsApex) {
+  std::mt19937 generator(7);
+  const rod::Rod rod = support::randomRod(generator, 10);
+  const Profile profile = LogisticProfile{0.9, 0.3, 15.0};
+  std::vector<double> rates;
+  elementRates(profile, rod, rates);
+  double speed = 0.0;
+  for (std::size_t e = 0; e < rod.size(); ++e) speed += rates[e] * rod.elements[e].rest_length;
+  EXPECT_NEAR(speed, velocity(profile, rod.restLength(), rod.restLength()), 1e-13);
+}
+
+}  // namespace
+}  // namespace sensory_growth::growth

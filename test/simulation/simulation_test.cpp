@@ -1,0 +1,285 @@
+// The step as its users meet it: stimuli, protocol, step limits, division, faults, reset.
+
+#include "sensory_growth/simulation/simulation.h"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/scenarios.h"
+
+namespace sensory_growth::simulation {
+namespace {
+
+using rod::Vector3;
+using support::kinematicScenario;
+using support::kUnlimited;
+using testing::HasSubstr;
+
+StimulusCommand lamp(const std::string& id, const Vector3& position, double strength = 1.0,
+                     StimulusOperation operation = StimulusOperation::add) {
+  return {StimulusKind::point_source, operation, id, position, strength};
+}
+
+/// A weighted shoot that senses everything, with the default step limits.
+Scenario shoot() {
+  Scenario scenario = kinematicScenario(0.1, 20);
+  scenario.relaxation = RelaxationMethod::statics;
+  scenario.weight = true;
+  scenario.gravity = -Vector3::UnitZ();
+  scenario.stepping.limits = {};
+  OrganScenario& organ = scenario.organs.front();
+  organ.section = support::section(0.03, 1.0, 1.0);
+  organ.bending.sensitivities = {0.05, 0.1, 0.1, 0.01};
+  organ.bending.proprioception_length = 0.01;
+  organ.longest_element = 0.06;
+  return scenario;
+}
+
+void expectSameBits(const Simulation& a, const Simulation& b) {
+  ASSERT_EQ(a.organs().size(), b.organs().size());
+  for (std::size_t i = 0; i < a.organs().size(); ++i) {
+    const rod::Rod& x = a.organs()[i].rod();
+    const rod::Rod& y = b.organs()[i].rod();
+    ASSERT_EQ(x.size(), y.size());
+    for (std::size_t e = 0; e < x.size(); ++e) {
+      EXPECT_EQ(x.vertices[e + 1].position, y.vertices[e + 1].position);
+      EXPECT_EQ(x.elements[e].frame.coeffs(), y.elements[e].frame.coeffs());
+      EXPECT_EQ(x.bends[e].rest_curvature, y.bends[e].rest_curvature);
+    }
+  }
+}
+
+TEST(Simulation, TurnsTheTipTowardsALampAndFollowsWhenItMoves) {
+  Scenario scenario = shoot();
+  scenario.organs.front().base.frame = rod::Quaternion::Identity();
+  scenario.organs.front().section = support::section(0.03, 1.0, 0.0);
+  scenario.organs.front().bending.sensitivities.point_source = 0.3;
+  Simulation simulation(scenario);
+  const auto tipX = [&] { return (simulation.organs().front().rod().apex().frame * Vector3::UnitZ()).x(); };
+
+  EXPECT_EQ(simulation.apply(lamp("lamp", {5.0, 0.0, 1.0})).refusal, "");
+  for (int i = 0; i < 8; ++i) ASSERT_TRUE(simulation.step().ok);
+  const double towards = tipX();
+  EXPECT_GT(towards, 0.3);
+
+  simulation.apply(lamp("lamp", {-5.0, 0.0, 1.0}, 1.0, StimulusOperation::change));
+  for (int i = 0; i < 8; ++i) ASSERT_TRUE(simulation.step().ok);
+  EXPECT_LT(tipX(), -0.3);
+}
+
+TEST(Simulation, RefusesWhatMakesNoSenseAndChangesNothing) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Simulation simulation(shoot());
+  Simulation untouched(shoot());
+  EXPECT_THAT(simulation.apply(lamp("", {1, 0, 0})).refusal, HasSubstr("id is empty"));
+  EXPECT_THAT(simulation.apply(lamp("a", {nan, 0, 0})).refusal, HasSubstr("not finite"));
+  EXPECT_THAT(simulation.apply(lamp("a", {2e6, 0, 0})).refusal, HasSubstr("beyond"));
+  EXPECT_THAT(simulation.apply(lamp("a", {1, 0, 0}, nan)).refusal, HasSubstr("strength nan is not in [-1000, 1000]"));
+  EXPECT_THAT(simulation.apply(lamp("a", {1, 0, 0}, -1e4)).refusal, HasSubstr("strength -10000"));
+  EXPECT_THAT(simulation.apply(lamp("a", {1, 0, 0}, 1.0, StimulusOperation::change)).refusal,
+              HasSubstr("there is no point_source 'a' to change"));
+  EXPECT_THAT(simulation.apply(lamp("a", {1, 0, 0}, 1.0, StimulusOperation::remove)).refusal,
+              HasSubstr("there is no point_source 'a' to remove"));
+  EXPECT_THAT(
+      simulation.apply({StimulusKind::light_direction, StimulusOperation::add, "sun", Vector3::Zero(), 1.0}).refusal,
+      HasSubstr("zero length"));
+  EXPECT_EQ(simulation.takeApplied().size(), 8u);
+  ASSERT_TRUE(simulation.step().ok);
+  ASSERT_TRUE(untouched.step().ok);
+  expectSameBits(simulation, untouched);
+}
+
+TEST(Simulation, NormalisesLightDirections) {
+  Simulation simulation(shoot());
+  simulation.apply({StimulusKind::light_direction, StimulusOperation::add, "sun", {3.0, 0.0, 4.0}, 1.0});
+  const Vector3 towards = simulation.environment().light_directions.front().towards;
+  EXPECT_LT((towards - Vector3(0.6, 0.0, 0.8)).norm(), 1e-15);
+}
+
+TEST(Simulation, KeepsPointSourcesAndLightsOfOneIdApart) {
+  Simulation simulation(shoot());
+  simulation.apply(lamp("a", {1, 0, 0}));
+  simulation.apply({StimulusKind::light_direction, StimulusOperation::add, "a", {1.0, 0.0, 0.0}, 1.0});
+  simulation.apply(lamp("a", {2, 0, 0}));
+  EXPECT_EQ(simulation.environment().point_sources.size(), 1u);
+  EXPECT_EQ(simulation.environment().point_sources.front().position.x(), 2.0);
+  simulation.apply(lamp("a", Vector3::Zero(), 1.0, StimulusOperation::remove));
+  EXPECT_TRUE(simulation.environment().point_sources.empty());
+  EXPECT_EQ(simulation.environment().light_directions.size(), 1u);
+}
+
+TEST(Simulation, TakesTheProtocolAtTheFirstStepBoundaryThatIsNotTooEarly) {
+  Scenario scenario = shoot();
+  scenario.protocol = {{0.0, lamp("first", {1, 0, 0})},
+                       {0.3, lamp("on_boundary", {2, 0, 0})},
+                       {0.31, lamp("between", {3, 0, 0})},
+                       {0.31, lamp("first", Vector3::Zero(), 1.0, StimulusOperation::remove)}};
+  Simulation simulation(scenario);
+  std::vector<AppliedStimulus> applied = simulation.takeApplied();
+  ASSERT_EQ(applied.size(), 1u);
+  EXPECT_EQ(applied[0].step, 0u);
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(simulation.step().ok);
+  applied = simulation.takeApplied();
+  ASSERT_EQ(applied.size(), 3u);
+  EXPECT_EQ(applied[0].command.id, "on_boundary");
+  EXPECT_EQ(applied[0].step, 3u);
+  EXPECT_EQ(applied[1].command.id, "between");
+  EXPECT_EQ(applied[1].step, 4u);
+  EXPECT_EQ(applied[2].step, 4u);
+  EXPECT_EQ(simulation.environment().point_sources.size(), 2u);
+  EXPECT_TRUE(simulation.takeApplied().empty());
+}
+
+TEST(Simulation, EqualCommandsGiveEqualBitsAlsoAfterReset) {
+  const auto run = [](Simulation& simulation) {
+    for (int i = 0; i < 12; ++i) {
+      if (i == 3) simulation.apply(lamp("lamp", {1.0, 2.0, 0.5}));
+      if (i == 7) simulation.apply(lamp("lamp", {1.0, -2.0, 0.5}, 0.5, StimulusOperation::change));
+      ASSERT_TRUE(simulation.step().ok);
+    }
+  };
+  Simulation once(shoot());
+  Simulation again(shoot());
+  run(once);
+  run(again);
+  expectSameBits(once, again);
+  again.reset();
+  EXPECT_EQ(again.stepIndex(), 0u);
+  EXPECT_TRUE(again.environment().point_sources.empty());
+  run(again);
+  expectSameBits(once, again);
+}
+
+TEST(Simulation, TimeIsTheStepIndexTimesTheStep) {
+  Simulation simulation(shoot());
+  for (int i = 0; i < 7; ++i) ASSERT_TRUE(simulation.step().ok);
+  EXPECT_EQ(simulation.stepIndex(), 7u);
+  EXPECT_EQ(simulation.time(), 7 * 0.1);
+}
+
+TEST(Simulation, FinishesAfterItsDuration) {
+  Scenario scenario = shoot();
+  scenario.duration = 0.3;
+  Simulation simulation(scenario);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_FALSE(simulation.finished());
+    ASSERT_TRUE(simulation.step().ok);
+  }
+  EXPECT_TRUE(simulation.finished());
+  scenario.duration = 0.0;
+  EXPECT_FALSE(Simulation(scenario).finished());
+}
+
+TEST(Simulation, DividesElementsAsTheyGrow) {
+  Simulation simulation(shoot());
+  for (int i = 0; i < 15; ++i) ASSERT_TRUE(simulation.step().ok);
+  const rod::Rod& rod = simulation.organs().front().rod();
+  EXPECT_GT(rod.size(), 60u);
+  for (const rod::Element& e : rod.elements) EXPECT_LE(e.rest_length, 0.06);
+  EXPECT_NEAR(rod.restLength(), std::exp(1.5), 1e-9);
+  double reference = 0.0;
+  for (const rod::Element& e : rod.elements) reference += e.reference_length;
+  EXPECT_NEAR(reference, 1.0, 1e-12);
+}
+
+TEST(Simulation, CutsLongStepsIntoParts) {
+  Simulation simulation(shoot());
+  ASSERT_TRUE(simulation.step().ok);
+  // Growth strain per part at most 0.05, tip advance at most half of 0.06 for a tip speed of 1.
+  EXPECT_GE(simulation.organs().front().report().substeps, 4);
+}
+
+TEST(Simulation, AFailedStepChangesNothingAndSaysWhy) {
+  Scenario scenario = shoot();
+  scenario.organs.push_back(scenario.organs.front());
+  OrganScenario& weak = scenario.organs.back();
+  weak.id = "weak";
+  weak.elements = 3;
+  weak.longest_element = kUnlimited;
+  weak.bending.sensitivities = {0.0, 20.0, 0.0, 0.0};  // curls far beyond what three elements resolve
+  scenario.stepping.limits.bend_angle = scenario.stepping.limits.total_angle = kUnlimited;
+  Simulation simulation(scenario);
+  simulation.apply({StimulusKind::light_direction, StimulusOperation::add, "sun", {0.0, 1.0, 0.0}, 1.0});
+  StepReport report;
+  std::uint64_t good = 0;
+  std::vector<Vector3> tips;
+  for (int i = 0; i < 50 && report.ok; ++i) {
+    good = simulation.stepIndex();
+    tips.clear();
+    for (const Organ& organ : simulation.organs()) tips.push_back(organ.rod().vertices.back().position);
+    report = simulation.step();
+  }
+  ASSERT_FALSE(report.ok);
+  EXPECT_THAT(report.message, HasSubstr("organ 'weak'"));
+  EXPECT_THAT(report.message, HasSubstr("unresolved_bend"));
+  EXPECT_EQ(simulation.stepIndex(), good);
+  for (std::size_t i = 0; i < tips.size(); ++i) {
+    EXPECT_EQ(simulation.organs()[i].rod().vertices.back().position, tips[i]);
+  }
+  simulation.reset();
+  EXPECT_TRUE(simulation.step().ok);
+}
+
+TEST(Simulation, RefusesStepsThatAreFarTooLong) {
+  Scenario scenario = shoot();
+  scenario.stepping.step = 1e4;
+  Simulation simulation(scenario);
+  const StepReport report = simulation.step();
+  EXPECT_FALSE(report.ok);
+  EXPECT_THAT(report.message, HasSubstr("shorten the step"));
+}
+
+TEST(Simulation, RefusesOrgansThatCannotBeBuilt) {
+  Scenario scenario = shoot();
+  scenario.organs.front().length = -1.0;
+  EXPECT_THROW(Simulation{scenario}, std::invalid_argument);
+  scenario = shoot();
+  scenario.stepping.step = 0.0;
+  EXPECT_THROW(Simulation{scenario}, std::invalid_argument);
+}
+
+TEST(Simulation, KinematicOrgansIgnoreTheirWeight) {
+  Scenario scenario = shoot();
+  scenario.relaxation = RelaxationMethod::kinematics;
+  scenario.organs.front().bending.sensitivities = {};
+  Simulation simulation(scenario);
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(simulation.step().ok);
+  EXPECT_NEAR(simulation.organs().front().rod().vertices.back().position.z(), 0.0, 1e-14);
+}
+
+TEST(Simulation, AGrowingColumnBucklesUnderItsWeightAndSaysSo) {
+  // Greenhill: B = w = 1 buckles at L = 7.8373^(1/3) = 1.98635; growing from 0.5 that is at time 1.379447 (V23).
+  Scenario scenario = kinematicScenario(0.02, 50);
+  scenario.relaxation = RelaxationMethod::statics;
+  scenario.weight = true;
+  scenario.gravity = -Vector3::UnitZ();
+  OrganScenario& organ = scenario.organs.front();
+  organ.base.frame = rod::Quaternion::Identity();
+  organ.length = 0.5;
+  organ.section = support::inextensibleSection(1.0, 1.0);
+  Simulation simulation(scenario);
+  double buckled_at = 0.0;
+  for (int i = 0; i < 100; ++i) {
+    ASSERT_TRUE(simulation.step().ok);
+    if (buckled_at == 0.0 && simulation.organs().front().report().branch_switches > 0) {
+      buckled_at = simulation.time();
+    }
+    const Vector3 tip = simulation.organs().front().rod().vertices.back().position;
+    if (buckled_at == 0.0) {
+      EXPECT_LT(std::hypot(tip.x(), tip.y()), 1e-6);
+    }
+  }
+  EXPECT_GT(buckled_at, 1.379447);
+  EXPECT_LT(buckled_at, 1.379447 + 0.02);
+  const rod::Rod& rod = simulation.organs().front().rod();
+  const Vector3 tip = rod.vertices.back().position / rod.restLength();
+  EXPECT_NEAR(std::hypot(tip.x(), tip.y()), 0.373844, 2e-3);
+  EXPECT_NEAR(tip.z(), -0.674885, 2e-3);
+}
+
+}  // namespace
+}  // namespace sensory_growth::simulation
