@@ -45,7 +45,7 @@ struct StepLimits {
   double bend_angle = 0.02;     ///< turning of one bend [rad]
   double total_angle = 0.1;     ///< summed turning of all bends [rad]
   double smallest_part =
-      1.0 / 4096.0;  ///< of a step that failing relaxations may cut it to, before the step is given up [-]
+      1.0 / 4096.0;  ///< of a step; when failing relaxations or the limits above ask for less, it fails [-]
 };
 
 struct Stepping {

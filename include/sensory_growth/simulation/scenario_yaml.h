@@ -1,0 +1,28 @@
+#pragma once
+
+/// Scenarios as YAML files. Every number that has a dimension carries its unit; see docs/scenario.md for all keys.
+
+#include <string>
+#include <vector>
+
+#include "sensory_growth/simulation/scenario.h"
+#include "sensory_growth/simulation/scenario_error.h"
+
+namespace sensory_growth::simulation {
+
+/// Reads a scenario. Throws ScenarioError with every problem found, and std::runtime_error if udunits2 cannot read its
+/// database of units.
+Scenario loadScenario(const std::string& file);
+
+/// The same from text; `source` names it in messages.
+Scenario parseScenario(const std::string& yaml, const std::string& source);
+
+/// Reads a stimulus protocol on its own: a file whose only top-level keys besides `name` and `description` are
+/// `stimuli` and `protocol`. In order of time; the stimuli are added at time 0. Throws as loadScenario() does, but
+/// cannot tell whether what it changes or removes will exist.
+std::vector<TimedStimulus> loadProtocol(const std::string& file);
+
+/// The same from text.
+std::vector<TimedStimulus> parseProtocol(const std::string& yaml, const std::string& source);
+
+}  // namespace sensory_growth::simulation

@@ -1,0 +1,308 @@
+#include "sensory_growth/simulation/scenario_yaml.h"
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <initializer_list>
+#include <map>
+#include <sstream>
+#include <utility>
+
+#include "sensory_growth/simulation/yaml_reader.h"
+
+namespace sensory_growth::simulation {
+namespace {
+
+using rod::Vector3;
+
+constexpr auto required = Presence::required;
+constexpr auto optional = Presence::optional;
+
+constexpr int most_elements = 100000;
+constexpr double pi = 3.14159265358979323846;
+
+/// Where each id was first given, to refuse a second one.
+using IdLines = std::map<std::string, int>;
+
+std::string readId(YamlReader& in, IdLines& lines) {
+  const std::string id = in.identifier("id");
+  const auto [first, is_new] = lines.emplace(id, in.line("id"));
+  if (!is_new && !id.empty()) {
+    in.addProblem("id", "'" + id + "' is already used on line " + std::to_string(first->second) + "; ids are unique");
+  }
+  return id;
+}
+
+/// The smallest rotation that takes the world's z axis to d3, then a roll about d3.
+rod::Quaternion frameAlong(const Vector3& d3, double roll) {
+  const Vector3 axis = Vector3::UnitZ().cross(d3);
+  rod::Quaternion tilt = rod::Quaternion::Identity();
+  if (axis.norm() > 0.0) {
+    tilt = Eigen::AngleAxisd(std::atan2(axis.norm(), d3.z()), axis.stableNormalized());
+  } else if (d3.z() < 0.0) {
+    tilt = Eigen::AngleAxisd(pi, Vector3::UnitX());
+  }
+  return (tilt * Eigen::AngleAxisd(roll, Vector3::UnitZ())).normalized();
+}
+
+Vector3 readGravity(YamlReader& in) {
+  const Vector3 direction = in.direction("direction");
+  return in.quantity("acceleration", dimension::acceleration, atLeast(0)) * direction;
+}
+
+void readLimits(YamlReader& in, StepLimits& limits) {
+  const Range limit = above(0).orInfinity();
+  limits.tip_advance = in.number("tip_advance", limit, limits.tip_advance);
+  limits.growth_strain = in.number("growth_strain", limit, limits.growth_strain);
+  limits.bend_angle = in.quantity("bend_angle", dimension::angle, limit, limits.bend_angle);
+  limits.total_angle = in.quantity("total_angle", dimension::angle, limit, limits.total_angle);
+  limits.smallest_part = in.number("smallest_part", above(0).upTo(1), limits.smallest_part);
+}
+
+void readStepping(YamlReader& in, Stepping& stepping) {
+  stepping.step = in.quantity("step", dimension::time, above(0));
+  stepping.second_order = in.flag("second_order", stepping.second_order);
+  in.section("limits", optional, [&](YamlReader& limits) { readLimits(limits, stepping.limits); });
+}
+
+void readRelaxation(YamlReader& in, Scenario& scenario) {
+  const auto method = in.choice<RelaxationMethod>(
+      "method", {{"static", RelaxationMethod::statics}, {"kinematic", RelaxationMethod::kinematics}},
+      scenario.relaxation);
+  if (!method) return in.ignoreOtherKeys();
+  scenario.relaxation = *method;
+  if (method == RelaxationMethod::kinematics) return;
+
+  mechanics::RelaxationSettings& settings = scenario.relaxation_settings;
+  settings.tolerance = in.number("tolerance", above(0).below(1), settings.tolerance);
+  settings.max_iterations = in.count("max_iterations", 1, 1000000, settings.max_iterations);
+  settings.max_branch_switches = in.count("max_branch_switches", 0, 1000, settings.max_branch_switches);
+  settings.max_rotation = in.quantity("max_rotation", dimension::angle, above(0).upTo(pi), settings.max_rotation);
+  settings.max_bend_angle =
+      in.quantity("max_bend_angle", dimension::angle, above(0).below(pi), settings.max_bend_angle);
+}
+
+void readBase(YamlReader& in, rod::Pose& base) {
+  base.position = in.vector("position", dimension::length);
+  const Vector3 direction = in.direction("direction");
+  base.frame = frameAlong(direction, in.quantity("roll", dimension::angle, anyNumber, 0.0));
+}
+
+void readMaterial(YamlReader& in, rod::Section& section) {
+  section.young_modulus = in.quantity("young_modulus", dimension::modulus, above(0));
+  enum class Given { poisson_ratio, shear_modulus };
+  const auto given =
+      in.exactlyOneOf<Given>({{"poisson_ratio", Given::poisson_ratio}, {"shear_modulus", Given::shear_modulus}});
+  if (given == Given::poisson_ratio) {
+    section.shear_modulus = section.young_modulus / (2.0 * (1.0 + in.number("poisson_ratio", above(-1).upTo(0.5))));
+  } else if (given == Given::shear_modulus) {
+    section.shear_modulus = in.quantity("shear_modulus", dimension::modulus, above(0));
+  }
+  section.density = in.quantity("density", dimension::density, above(0));
+  section.shear_correction = in.number("shear_correction", above(0).upTo(1), section.shear_correction);
+  section.inextensible = in.flag("inextensible", section.inextensible);
+}
+
+double readRate(YamlReader& in) { return in.quantity("rate", dimension::rate, atLeast(0)); }
+double readZoneLength(YamlReader& in) { return in.quantity("zone_length", dimension::length, above(0)); }
+
+growth::Profile readLogistic(YamlReader& in) {
+  return growth::LogisticProfile{readRate(in), readZoneLength(in), in.number("steepness", above(0))};
+}
+
+growth::Profile readUniform(YamlReader& in) { return growth::UniformProfile{readRate(in)}; }
+
+growth::Profile readApicalFlat(YamlReader& in) { return growth::ApicalFlatProfile{readRate(in), readZoneLength(in)}; }
+
+void readGrowth(YamlReader& in, OrganScenario& organ) {
+  organ.elongation = in.flag("elongation", organ.elongation);
+  using ReadProfile = growth::Profile (*)(YamlReader&);
+  const auto read = in.choice<ReadProfile>(
+      "profile", {{"logistic", readLogistic}, {"uniform", readUniform}, {"apical_flat", readApicalFlat}});
+  if (!read) return in.ignoreOtherKeys();
+  organ.profile = (*read)(in);
+}
+
+void readSensitivities(YamlReader& in, growth::Sensitivities& sensitivities) {
+  sensitivities.gravity = in.number("gravity", anyNumber);
+  sensitivities.light_direction = in.number("light_direction", anyNumber);
+  sensitivities.point_source = in.number("point_source", anyNumber);
+  if (std::abs(sensitivities.point_source) > 0.0 || in.has("softening_length")) {
+    sensitivities.softening_length = in.quantity("softening_length", dimension::length, atLeast(0));
+  }
+}
+
+void readDivision(YamlReader& in, RelaxationMethod relaxation, OrganScenario& organ) {
+  organ.longest_element = in.quantity("longest_element", dimension::length, above(0).orInfinity());
+  if (organ.length / organ.longest_element > most_elements) {
+    in.addProblem("longest_element", "would divide the organ into more than " + std::to_string(most_elements) +
+                                         " elements; give a longer one");
+  }
+  const auto mode = in.choice<rod::DivisionMode>(
+      "mode", {{"keep_strain", rod::DivisionMode::keep_strain}, {"keep_positions", rod::DivisionMode::keep_positions}},
+      organ.division);
+  if (!mode) return;
+  organ.division = *mode;
+  if (mode == rod::DivisionMode::keep_positions && relaxation == RelaxationMethod::kinematics) {
+    in.addProblem("mode",
+                  "'keep_positions' needs static relaxation: it leaves a strain defect that kinematic relaxation never "
+                  "removes; give 'keep_strain'");
+  }
+}
+
+OrganScenario readOrgan(YamlReader& in, RelaxationMethod relaxation, IdLines& ids) {
+  OrganScenario organ;
+  organ.id = readId(in, ids);
+  in.section("base", required, [&](YamlReader& base) { readBase(base, organ.base); });
+  organ.length = in.quantity("length", dimension::length, above(0));
+  organ.elements = static_cast<std::size_t>(in.count("elements", 1, most_elements));
+  organ.section.radius = in.quantity("radius", dimension::length, above(0));
+  in.section("material", required, [&](YamlReader& material) { readMaterial(material, organ.section); });
+  in.section("growth", required, [&](YamlReader& growth) { readGrowth(growth, organ); });
+  in.section("sensitivities", required,
+             [&](YamlReader& sensitivities) { readSensitivities(sensitivities, organ.bending.sensitivities); });
+  organ.bending.proprioception_length = in.quantity("proprioception_length", dimension::length, atLeast(0));
+  in.section("division", required, [&](YamlReader& division) { readDivision(division, relaxation, organ); });
+  organ.tip_force = in.vector("tip_force", dimension::force, organ.tip_force);
+  if (relaxation == RelaxationMethod::kinematics && !organ.tip_force.isZero(0.0)) {
+    in.addProblem("tip_force", "has no effect with kinematic relaxation; leave it out");
+  }
+  organ.rest_curvature = in.vector("rest_curvature", dimension::curvature, organ.rest_curvature);
+  return organ;
+}
+
+StimulusCommand readStimulus(YamlReader& in, StimulusKind kind, StimulusOperation operation, const std::string& id) {
+  StimulusCommand command;
+  command.kind = kind;
+  command.operation = operation;
+  command.id = id;
+  if (operation == StimulusOperation::remove) return command;
+  const bool is_direction = kind == StimulusKind::light_direction;
+  command.vector = is_direction ? in.direction("towards") : in.vector("position", dimension::length);
+  command.strength = in.number("strength", anyNumber);
+  return command;
+}
+
+void readStimuli(YamlReader& in, std::vector<TimedStimulus>& protocol) {
+  const auto readList = [&](const std::string& key, StimulusKind kind) {
+    IdLines ids;
+    in.list(key, optional, [&](YamlReader& stimulus) {
+      const std::string id = readId(stimulus, ids);
+      protocol.push_back({0.0, readStimulus(stimulus, kind, StimulusOperation::add, id)});
+    });
+  };
+  readList("point_sources", StimulusKind::point_source);
+  readList("light_directions", StimulusKind::light_direction);
+}
+
+template <typename Value>
+Options<Value> named(std::initializer_list<Value> values) {
+  Options<Value> options;
+  for (const Value value : values) options.emplace_back(name(value), value);
+  return options;
+}
+
+TimedStimulus readProtocolEntry(YamlReader& in) {
+  TimedStimulus entry;
+  entry.time = in.quantity("at", dimension::time, atLeast(0));
+  const auto operation =
+      in.exactlyOneOf(named({StimulusOperation::add, StimulusOperation::change, StimulusOperation::remove}));
+  if (!operation) return entry;
+  in.section(name(*operation), required, [&](YamlReader& stimulus) {
+    const auto kind = stimulus.exactlyOneOf(named({StimulusKind::point_source, StimulusKind::light_direction}));
+    if (!kind) return;
+    stimulus.section(name(*kind), required, [&](YamlReader& fields) {
+      entry.command = readStimulus(fields, *kind, *operation, fields.identifier("id"));
+    });
+  });
+  return entry;
+}
+
+/// `known` holds the stimuli of the world that the protocol finds, to refuse what would change nothing in it; null if
+/// that world is not known.
+void readProtocol(YamlReader& in, std::vector<TimedStimulus>& protocol, growth::Environment* known) {
+  in.section("stimuli", optional, [&](YamlReader& stimuli) { readStimuli(stimuli, protocol); });
+  if (known) {
+    for (const TimedStimulus& stimulus : protocol) apply(stimulus.command, *known);
+  }
+  double latest = 0.0;
+  int latest_line = 0;
+  in.list("protocol", optional, [&](YamlReader& entry) {
+    const TimedStimulus stimulus = readProtocolEntry(entry);
+    if (stimulus.time < latest) {
+      entry.addProblem("at", "'" + entry.text("at") + "' is earlier than the entry before it, on line " +
+                                 std::to_string(latest_line) + "; entries are in order of time");
+    }
+    if (known && entry.faultless()) {
+      const auto refusal = apply(stimulus.command, *known);
+      if (refusal) entry.addProblem(name(stimulus.command.operation), *refusal);
+    }
+    latest = stimulus.time;
+    latest_line = entry.line("at");
+    protocol.push_back(stimulus);
+  });
+}
+
+Scenario readScenario(YamlReader& in) {
+  Scenario scenario;
+  scenario.name = in.identifier("name");
+  scenario.description = in.text("description", "");
+  in.section("gravity", required, [&](YamlReader& gravity) { scenario.gravity = readGravity(gravity); });
+  scenario.weight = in.flag("weight");
+  scenario.duration = in.quantity("duration", dimension::time, atLeast(0), scenario.duration);
+  in.section("stepping", required, [&](YamlReader& stepping) { readStepping(stepping, scenario.stepping); });
+  in.section("relaxation", optional, [&](YamlReader& relaxation) { readRelaxation(relaxation, scenario); });
+  if (scenario.relaxation == RelaxationMethod::kinematics && scenario.weight) {
+    in.addProblem("weight", "'true' has no effect with kinematic relaxation; give false");
+  }
+  IdLines ids;
+  in.list("organs", required,
+          [&](YamlReader& organ) { scenario.organs.push_back(readOrgan(organ, scenario.relaxation, ids)); });
+  growth::Environment environment;
+  readProtocol(in, scenario.protocol, &environment);
+  return scenario;
+}
+
+std::vector<TimedStimulus> readProtocolAlone(YamlReader& in) {
+  std::vector<TimedStimulus> protocol;
+  in.identifier("name");
+  in.text("description", "");
+  if (!in.has("stimuli") && !in.has("protocol")) in.addProblem("protocol", "is missing; give a sequence of mappings");
+  readProtocol(in, protocol, nullptr);
+  return protocol;
+}
+
+template <typename Content>
+Content parse(const std::string& yaml, const std::string& source, Content (*read)(YamlReader&)) {
+  std::vector<Problem> problems;
+  Content content;
+  readYaml(yaml, problems, [&](YamlReader& in) { content = read(in); });
+  if (!problems.empty()) throw ScenarioError(source, std::move(problems));
+  return content;
+}
+
+std::string readText(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  in.peek();  // a directory opens, but cannot be read
+  if (!in.is_open() || in.bad()) {
+    throw ScenarioError(file, {{"", 0, std::string("cannot be read: ") + std::strerror(errno)}});
+  }
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+}  // namespace
+
+Scenario loadScenario(const std::string& file) { return parseScenario(readText(file), file); }
+
+Scenario parseScenario(const std::string& yaml, const std::string& source) { return parse(yaml, source, readScenario); }
+
+std::vector<TimedStimulus> loadProtocol(const std::string& file) { return parseProtocol(readText(file), file); }
+
+std::vector<TimedStimulus> parseProtocol(const std::string& yaml, const std::string& source) {
+  return parse(yaml, source, readProtocolAlone);
+}
+
+}  // namespace sensory_growth::simulation

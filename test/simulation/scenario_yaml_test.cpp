@@ -1,0 +1,674 @@
+#include "sensory_growth/simulation/scenario_yaml.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <ostream>
+#include <random>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
+
+namespace sensory_growth::simulation {
+namespace {
+
+using rod::Vector3;
+using testing::ContainsRegex;
+using testing::HasSubstr;
+
+const std::string good = "data/scenarios/good/";
+const std::string bad = "data/scenarios/bad/";
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+std::string contentOf(const std::string& file) {
+  std::ifstream in(file);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+std::vector<Problem> problemsOf(const std::function<void()>& read) {
+  try {
+    read();
+  } catch (const ScenarioError& error) {
+    return error.problems();
+  }
+  return {};
+}
+
+std::vector<Problem> problemsOf(const std::string& yaml) {
+  return problemsOf([&] { parseScenario(yaml, "test"); });
+}
+
+std::string list(const std::vector<Problem>& problems) {
+  return problems.empty() ? "no problem" : ScenarioError("test", problems).what();
+}
+
+void expectNear(const Vector3& actual, const Vector3& expected) {
+  EXPECT_LT((actual - expected).norm(), 1e-14 * std::max(1.0, expected.norm()))
+      << actual.transpose() << " instead of " << expected.transpose();
+}
+
+/// Directors of the base of an organ that points along `direction`.
+rod::Matrix3 baseFrame(const std::string& direction, const std::string& roll) {
+  YAML::Node scenario = YAML::LoadFile(good + "least_keys.yaml");
+  scenario["organs"][0]["base"]["direction"] = YAML::Load(direction);
+  scenario["organs"][0]["base"]["roll"] = roll;
+  return parseScenario(YAML::Dump(scenario), "test").organs[0].base.frame.toRotationMatrix();
+}
+
+rod::Matrix3 directors(const Vector3& d1, const Vector3& d2, const Vector3& d3) {
+  rod::Matrix3 frame;
+  frame << d1, d2, d3;
+  return frame;
+}
+
+TEST(ScenarioYaml, EveryKeyArrivesInSi) {
+  const Scenario s = loadScenario(good + "all_keys.yaml");
+  EXPECT_EQ(s.name, "all_keys");
+  EXPECT_EQ(s.description, "Every key of a statically relaxed scenario.");
+  expectNear(s.gravity, {0.0, 0.0, -9.80665});
+  EXPECT_TRUE(s.weight);
+  EXPECT_DOUBLE_EQ(s.duration, 129600.0);
+
+  EXPECT_DOUBLE_EQ(s.stepping.step, 120.0);
+  EXPECT_FALSE(s.stepping.second_order);
+  EXPECT_EQ(s.stepping.limits.tip_advance, 0.25);
+  EXPECT_EQ(s.stepping.limits.growth_strain, 0.02);
+  EXPECT_DOUBLE_EQ(s.stepping.limits.bend_angle, 0.017453292519943295);
+  EXPECT_EQ(s.stepping.limits.total_angle, infinity);
+  EXPECT_EQ(s.stepping.limits.smallest_part, 0.125);
+
+  EXPECT_EQ(s.relaxation, RelaxationMethod::statics);
+  EXPECT_EQ(s.relaxation_settings.tolerance, 1e-8);
+  EXPECT_EQ(s.relaxation_settings.max_iterations, 77);
+  EXPECT_EQ(s.relaxation_settings.max_branch_switches, 3);
+  EXPECT_DOUBLE_EQ(s.relaxation_settings.max_rotation, 0.5235987755982988);
+  EXPECT_DOUBLE_EQ(s.relaxation_settings.max_bend_angle, 0.5);
+
+  ASSERT_EQ(s.organs.size(), 2u);
+  const OrganScenario& organ = s.organs[0];
+  EXPECT_EQ(organ.id, "logistic_organ");
+  expectNear(organ.base.position, {0.001, -0.02, 0.3});
+  EXPECT_LT((organ.base.frame.toRotationMatrix() - directors({0, 0, -1}, {-1, 0, 0}, {0, 1, 0})).norm(), 1e-14);
+  EXPECT_DOUBLE_EQ(organ.length, 0.03);
+  EXPECT_EQ(organ.elements, 60u);
+  EXPECT_DOUBLE_EQ(organ.section.radius, 8e-4);
+  EXPECT_DOUBLE_EQ(organ.section.young_modulus, 12e6);
+  EXPECT_DOUBLE_EQ(organ.section.shear_modulus, 4e6);
+  EXPECT_DOUBLE_EQ(organ.section.density, 1100.0);
+  EXPECT_EQ(organ.section.shear_correction, 0.9);
+  EXPECT_TRUE(organ.section.inextensible);
+  const auto& logistic = std::get<growth::LogisticProfile>(organ.profile);
+  EXPECT_DOUBLE_EQ(logistic.rate, 1e-4);
+  EXPECT_DOUBLE_EQ(logistic.zone_length, 0.01);
+  EXPECT_EQ(logistic.steepness, 12.0);
+  EXPECT_FALSE(organ.elongation);
+  EXPECT_EQ(organ.bending.sensitivities.gravity, 0.1);
+  EXPECT_EQ(organ.bending.sensitivities.light_direction, -0.2);
+  EXPECT_EQ(organ.bending.sensitivities.point_source, 0.3);
+  EXPECT_DOUBLE_EQ(organ.bending.sensitivities.softening_length, 0.0015);
+  EXPECT_DOUBLE_EQ(organ.bending.proprioception_length, 6e-5);
+  EXPECT_DOUBLE_EQ(organ.longest_element, 7e-4);
+  EXPECT_EQ(organ.division, rod::DivisionMode::keep_positions);
+  expectNear(organ.tip_force, {1e-3, 0.0, -2e-6});
+  expectNear(organ.rest_curvature, {5.0, 20.0, -1.0});
+
+  const OrganScenario& flat = s.organs[1];
+  EXPECT_DOUBLE_EQ(flat.section.young_modulus, 1e9);
+  EXPECT_DOUBLE_EQ(flat.section.shear_modulus, 3e5);
+  EXPECT_DOUBLE_EQ(std::get<growth::ApicalFlatProfile>(flat.profile).rate, 2e-5);
+  EXPECT_DOUBLE_EQ(std::get<growth::ApicalFlatProfile>(flat.profile).zone_length, 0.005);
+  EXPECT_EQ(flat.longest_element, infinity);
+}
+
+void expectStimulus(const TimedStimulus& actual, double time, StimulusOperation operation, StimulusKind kind,
+                    const std::string& id, const Vector3& vector, double strength) {
+  SCOPED_TRACE(id);
+  EXPECT_DOUBLE_EQ(actual.time, time);
+  EXPECT_EQ(actual.command.operation, operation);
+  EXPECT_EQ(actual.command.kind, kind);
+  EXPECT_EQ(actual.command.id, id);
+  if (operation == StimulusOperation::remove) return;
+  expectNear(actual.command.vector, vector);
+  EXPECT_EQ(actual.command.strength, strength);
+}
+
+TEST(ScenarioYaml, StimuliAndProtocolBecomeTimedStimuli) {
+  const std::vector<TimedStimulus> p = loadScenario(good + "all_keys.yaml").protocol;
+  using Operation = StimulusOperation;
+  using Kind = StimulusKind;
+  ASSERT_EQ(p.size(), 8u);
+  expectStimulus(p[0], 0, Operation::add, Kind::point_source, "lamp", {0.1, 0, 0.2}, 0.5);
+  expectStimulus(p[1], 0, Operation::add, Kind::light_direction, "sun", {0, 0.6, 0.8}, -1);
+  expectStimulus(p[2], 1800, Operation::change, Kind::point_source, "lamp", {0, 1, 0}, 2);
+  expectStimulus(p[3], 1800, Operation::change, Kind::light_direction, "sun", {1, 0, 0}, 1);
+  expectStimulus(p[4], 7200, Operation::add, Kind::point_source, "second_lamp", {1, 1, 1}, 1);
+  expectStimulus(p[5], 10800, Operation::add, Kind::light_direction, "moon", {0, 0, 1}, 0.1);
+  expectStimulus(p[6], 86400, Operation::remove, Kind::point_source, "second_lamp", {}, 0);
+  expectStimulus(p[7], 86400, Operation::remove, Kind::light_direction, "moon", {}, 0);
+}
+
+TEST(ScenarioYaml, AbsentKeysHaveTheirDocumentedDefaults) {
+  const Scenario s = loadScenario(good + "least_keys.yaml");
+  EXPECT_EQ(s.description, "");
+  EXPECT_EQ(s.duration, 0.0);
+  EXPECT_FALSE(s.weight);
+  EXPECT_EQ(s.relaxation, RelaxationMethod::kinematics);
+  EXPECT_TRUE(s.stepping.second_order);
+  EXPECT_EQ(s.stepping.limits.tip_advance, 0.5);
+  EXPECT_EQ(s.stepping.limits.growth_strain, 0.05);
+  EXPECT_EQ(s.stepping.limits.bend_angle, 0.02);
+  EXPECT_EQ(s.stepping.limits.total_angle, 0.1);
+  EXPECT_EQ(s.stepping.limits.smallest_part, 0.000244140625);
+  EXPECT_TRUE(s.protocol.empty());
+  const OrganScenario& organ = s.organs.at(0);
+  EXPECT_LT((organ.base.frame.toRotationMatrix() - rod::Matrix3::Identity()).norm(), 1e-15);
+  EXPECT_EQ(std::get<growth::UniformProfile>(organ.profile).rate, 0.0);
+  EXPECT_TRUE(organ.elongation);
+  EXPECT_FALSE(organ.section.inextensible);
+  EXPECT_DOUBLE_EQ(organ.section.shear_correction, 0.9642857142857143);
+  EXPECT_EQ(organ.bending.sensitivities.softening_length, 0.0);
+  EXPECT_EQ(organ.division, rod::DivisionMode::keep_strain);
+  EXPECT_TRUE(organ.tip_force.isZero(0.0));
+  EXPECT_TRUE(organ.rest_curvature.isZero(0.0));
+
+  const Scenario relaxed = loadScenario("../config/wheat_coleoptile.yaml");
+  EXPECT_EQ(relaxed.relaxation, RelaxationMethod::statics);
+  EXPECT_EQ(relaxed.relaxation_settings.tolerance, 1e-10);
+  EXPECT_EQ(relaxed.relaxation_settings.max_iterations, 200);
+}
+
+TEST(ScenarioYaml, BaseFrameIsTheMinimalRotationThenTheRoll) {
+  const double r = std::sqrt(0.5);
+  const struct {
+    const char* direction;
+    const char* roll;
+    rod::Matrix3 frame;
+  } cases[] = {
+      {"[0, 0, 5]", "0 deg", directors({1, 0, 0}, {0, 1, 0}, {0, 0, 1})},
+      {"[0, 0, 5]", "90 deg", directors({0, 1, 0}, {-1, 0, 0}, {0, 0, 1})},
+      {"[2, 0, 0]", "0 deg", directors({0, 0, -1}, {0, 1, 0}, {1, 0, 0})},
+      {"[2, 0, 0]", "-90 deg", directors({0, -1, 0}, {0, 0, -1}, {1, 0, 0})},
+      {"[-1, 0, 0]", "0 deg", directors({0, 0, 1}, {0, 1, 0}, {-1, 0, 0})},
+      {"[0, 1e-200, 1e-200]", "0 deg", directors({1, 0, 0}, {0, r, -r}, {0, r, r})},
+      {"[0, 0, -1]", "0 deg", directors({1, 0, 0}, {0, -1, 0}, {0, 0, -1})},
+      {"[0, 0, -1]", "180 deg", directors({-1, 0, 0}, {0, 1, 0}, {0, 0, -1})},
+      {"[1e-9, 0, -1]", "0 deg", directors({-1, 0, -1e-9}, {0, 1, 0}, {1e-9, 0, -1})},
+  };
+  for (const auto& c : cases) {
+    const rod::Matrix3 frame = baseFrame(c.direction, c.roll);
+    EXPECT_LT((frame - c.frame).norm(), 1e-14) << c.direction << ", roll " << c.roll << ":\n" << frame;
+  }
+}
+
+/// A scenario without fault; each test below spoils a piece of it.
+const std::string valid = R"(name: one_organ
+gravity: {direction: [0, 0, -1], acceleration: 9.81 m/s^2}
+weight: true
+duration: 8 h
+stepping:
+  step: 1 min
+  limits: {bend_angle: 0.02 rad}
+relaxation: {method: static, max_iterations: 100}
+organs:
+  - id: first
+    base: {position: [0 mm, 0 mm, 0 mm], direction: [0, 0, 1], roll: 0 deg}
+    length: 30 mm
+    elements: 60
+    radius: 0.8 mm
+    material: {young_modulus: 10 MPa, poisson_ratio: 0.5, density: 1000 kg/m^3}
+    growth: {profile: apical_flat, rate: 0.05 1/h, zone_length: 10 mm}
+    sensitivities: {gravity: 0.1, light_direction: 0.3, point_source: 0.3, softening_length: 1 mm}
+    proprioception_length: 0.06 mm
+    division: {longest_element: 1 mm, mode: keep_strain}
+    tip_force: [0 N, 0 N, 0 N]
+stimuli:
+  point_sources:
+    - {id: lamp, position: [10 cm, 0 m, 10 cm], strength: 1}
+  light_directions:
+    - {id: sun, towards: [1, 0, 0], strength: 1}
+protocol:
+  - {at: 2 h, change: {light_direction: {id: sun, towards: [0, 1, 0], strength: 1}}}
+  - {at: 3 h, remove: {point_source: {id: lamp}}}
+)";
+
+TEST(ScenarioYaml, TheUnspoiltScenarioIsValid) { EXPECT_EQ(list(problemsOf(valid)), "no problem"); }
+
+/// `piece` of the valid scenario is replaced; one problem is expected, on the line of the piece.
+struct Spoilt {
+  const char* piece;
+  const char* replacement;
+  const char* key;
+  const char* message;
+};
+
+void PrintTo(const Spoilt& spoilt, std::ostream* out) { *out << spoilt.replacement; }
+
+class SpoiltScenario : public testing::TestWithParam<Spoilt> {};
+
+TEST_P(SpoiltScenario, IsRefusedWithKeyLineAndReason) {
+  const Spoilt& spoilt = GetParam();
+  const std::string piece = spoilt.piece;
+  const std::size_t at = valid.find(piece);
+  ASSERT_NE(at, std::string::npos);
+  ASSERT_EQ(valid.find(piece, at + 1), std::string::npos) << "the piece is not unique";
+  const std::vector<Problem> problems = problemsOf(std::string(valid).replace(at, piece.size(), spoilt.replacement));
+  ASSERT_EQ(problems.size(), 1u) << list(problems);
+  EXPECT_EQ(problems[0].key, spoilt.key);
+  EXPECT_EQ(problems[0].line, 1 + std::count(valid.begin(), valid.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+  EXPECT_THAT(problems[0].message, ContainsRegex(spoilt.message));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Units, SpoiltScenario,
+    testing::Values(
+        Spoilt{"radius: 0.8 mm", "radius: 0.8", "organs[0].radius",
+               "^'0.8' has no unit; give a length such as '0.8 mm'$"},
+        Spoilt{"radius: 0.8 mm", "radius: 0.8 s", "organs[0].radius", "^'0.8 s' is a time; give a length such as"},
+        Spoilt{"radius: 0.8 mm", "radius: 0.8 mmm", "organs[0].radius", "unknown unit 'mmm'"},
+        Spoilt{"radius: 0.8 mm", "radius: 1,5 mm", "organs[0].radius", "^'1,5 mm' does not begin with a finite number"},
+        Spoilt{"radius: 0.8 mm", "radius: 0x10 m", "organs[0].radius", "^'0x10 m' does not begin with"},
+        Spoilt{"radius: 0.8 mm", "radius: 1 2 mm", "organs[0].radius", "unknown unit '2 mm'"},
+        Spoilt{"radius: 0.8 mm", "radius: .nan", "organs[0].radius", "does not begin with a finite number"},
+        Spoilt{"radius: 0.8 mm", "radius: inf", "organs[0].radius", "does not begin with a finite number"},
+        Spoilt{"rate: 0.05 1/h", "rate: 20 h", "organs[0].growth.rate", "^'20 h' is a time; give a rate"},
+        Spoilt{"gravity: 0.1", "gravity: 0.1 mm", "organs[0].sensitivities.gravity", "not a number without a unit"},
+        Spoilt{"gravity: 0.1", "gravity: nan", "organs[0].sensitivities.gravity", "not a finite number"},
+        Spoilt{"gravity: 0.1", "gravity: inf", "organs[0].sensitivities.gravity", "not a finite number"},
+        Spoilt{"9.81 m/s^2", "9.81 m/s", "gravity.acceleration", "in units of m.s-1; give an acceleration"},
+        Spoilt{"bend_angle: 0.02 rad", "bend_angle: 2 %", "stepping.limits.bend_angle", "give an angle"},
+        Spoilt{"[0 N, 0 N, 0 N]", "[0 N, 0, 0 N]", "organs[0].tip_force[1]", "^'0' has no unit; give a force"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Ranges, SpoiltScenario,
+    testing::Values(
+        Spoilt{"radius: 0.8 mm", "radius: -0.8 mm", "organs[0].radius", "^'-0.8 mm' is out of range; must be > 0 m$"},
+        Spoilt{"radius: 0.8 mm", "radius: 0 mm", "organs[0].radius", "must be > 0 m$"},
+        Spoilt{"length: 30 mm", "length: 0 mm", "organs[0].length", "must be > 0 m$"},
+        Spoilt{"elements: 60", "elements: 0", "organs[0].elements",
+               "^'0' is out of range; must be >= 1 and <= 100000$"},
+        Spoilt{"elements: 60", "elements: 99999999999", "organs[0].elements", "out of range"},
+        Spoilt{"elements: 60", "elements: 60.0", "organs[0].elements", "^'60.0' is not a whole number$"},
+        Spoilt{"elements: 60", "elements: many", "organs[0].elements", "^'many' is not a whole number$"},
+        Spoilt{"10 MPa", "0 MPa", "organs[0].material.young_modulus", "must be > 0 Pa$"},
+        Spoilt{"1000 kg/m^3", "-1 kg/m^3", "organs[0].material.density", "must be > 0 kg/m\\^3$"},
+        Spoilt{"poisson_ratio: 0.5", "poisson_ratio: 0.6", "organs[0].material.poisson_ratio",
+               "must be > -1 and <= 0.5$"},
+        Spoilt{"poisson_ratio: 0.5", "poisson_ratio: -1", "organs[0].material.poisson_ratio", "must be > -1 and"},
+        Spoilt{"rate: 0.05 1/h", "rate: -1 1/h", "organs[0].growth.rate", "must be >= 0 1/s$"},
+        Spoilt{"zone_length: 10 mm", "zone_length: 0 mm", "organs[0].growth.zone_length", "must be > 0 m$"},
+        Spoilt{"softening_length: 1 mm", "softening_length: -1 mm", "organs[0].sensitivities.softening_length",
+               "must be >= 0 m$"},
+        Spoilt{"0.06 mm", "-1 mm", "organs[0].proprioception_length", "must be >= 0 m$"},
+        Spoilt{"longest_element: 1 mm", "longest_element: 0 mm", "organs[0].division.longest_element",
+               "must be > 0 m or inf$"},
+        Spoilt{"longest_element: 1 mm", "longest_element: 1 nm", "organs[0].division.longest_element",
+               "more than 100000 elements"},
+        Spoilt{"step: 1 min", "step: 0 s", "stepping.step", "must be > 0 s$"},
+        Spoilt{"bend_angle: 0.02 rad", "bend_angle: 0 rad", "stepping.limits.bend_angle", "must be > 0 rad or inf$"},
+        Spoilt{"bend_angle: 0.02 rad", "smallest_part: 2", "stepping.limits.smallest_part", "must be > 0 and <= 1$"},
+        Spoilt{"max_iterations: 100", "max_iterations: 0", "relaxation.max_iterations", "must be >= 1 and <= 1000000$"},
+        Spoilt{"max_iterations: 100", "tolerance: 1", "relaxation.tolerance", "must be > 0 and < 1$"},
+        Spoilt{"max_iterations: 100", "max_bend_angle: 180 deg", "relaxation.max_bend_angle", "> 0 rad and < 3.14159"},
+        Spoilt{"duration: 8 h", "duration: -8 h", "duration", "must be >= 0 s$"},
+        Spoilt{"at: 2 h", "at: -2 h", "protocol[0].at", "must be >= 0 s$"},
+        Spoilt{"9.81 m/s^2", "-9.81 m/s^2", "gravity.acceleration", "must be >= 0 m/s\\^2$"},
+        Spoilt{"direction: [0, 0, -1]", "direction: [0, 0, 0.0]", "gravity.direction", "zero length"},
+        Spoilt{"direction: [0, 0, 1]", "direction: [0, 0, -0]", "organs[0].base.direction", "zero length"},
+        Spoilt{"towards: [1, 0, 0]", "towards: [0, 0, 0]", "stimuli.light_directions[0].towards", "zero length"},
+        Spoilt{"towards: [0, 1, 0]", "towards: [0, inf, 0]", "protocol[0].change.light_direction.towards[1]",
+               "not a finite number"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Keys, SpoiltScenario,
+    testing::Values(
+        Spoilt{"duration:", "durtion:", "durtion", "^is an unknown key; did you mean 'duration'\\?$"},
+        Spoilt{"tip_force:", "tip_froce:", "organs[0].tip_froce", "did you mean 'tip_force'\\?$"},
+        Spoilt{"tip_force:", "colour: green\n    tip_force:", "organs[0].colour",
+               "^is an unknown key; known here are 'id', 'base', .* and 'rest_curvature'$"},
+        Spoilt{"zone_length: 10 mm", "zone_length: 10 mm, steepness: 15", "organs[0].growth.steepness",
+               "^is an unknown key; known here are 'elongation', 'profile', 'rate' and 'zone_length'$"},
+        Spoilt{"roll: 0 deg", "roll: 0 deg, roll: 1 deg", "organs[0].base.roll", "^is given twice, first on line 11$"},
+        Spoilt{"name: one_organ", "description: nameless", "name", "^is missing; give a letter followed by"},
+        Spoilt{"duration: 8 h", "? [a, b]\n: 8 h", "", "has a key that is a sequence; keys are plain words"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    MissingKeys, SpoiltScenario,
+    testing::Values(
+        Spoilt{"direction: [0, 0, -1], acc", "acc", "gravity.direction", "^is missing; give a sequence of three"},
+        Spoilt{", acceleration: 9.81 m/s^2", "", "gravity.acceleration", "^is missing; give an acceleration"},
+        Spoilt{"young_modulus: 10 MPa, ", "", "organs[0].material.young_modulus",
+               "^is missing; give an elastic modulus"},
+        Spoilt{", density: 1000 kg/m^3", "", "organs[0].material.density", "^is missing"},
+        Spoilt{"poisson_ratio: 0.5, ", "", "organs[0].material", "needs exactly one of 'poisson_ratio' and 'shear_mod"},
+        Spoilt{"profile: apical_flat, ", "", "organs[0].growth.profile", "^is missing; give 'logistic', 'uniform' or"},
+        Spoilt{", zone_length: 10 mm", "", "organs[0].growth.zone_length", "^is missing; give a length"},
+        Spoilt{"gravity: 0.1, ", "", "organs[0].sensitivities.gravity", "^is missing; give a number without a unit$"},
+        Spoilt{", softening_length: 1 mm", "", "organs[0].sensitivities.softening_length", "^is missing"},
+        Spoilt{"longest_element: 1 mm, ", "", "organs[0].division.longest_element", "^is missing"},
+        Spoilt{"  step: 1 min\n  limits", "  limits", "stepping.step", "^is missing; give a time such as '10 min'$"},
+        Spoilt{"{id: lamp, pos", "{pos", "stimuli.point_sources[0].id", "^is missing"},
+        Spoilt{"[10 cm, 0 m, 10 cm], strength: 1", "[10 cm, 0 m, 10 cm]", "stimuli.point_sources[0].strength",
+               "^is missing"},
+        Spoilt{"at: 2 h, ", "", "protocol[0].at", "^is missing; give a time"},
+        Spoilt{", remove: {point_source: {id: lamp}}", "", "protocol[1]",
+               "^needs exactly one of 'add', 'change' and 'remove'$"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Types, SpoiltScenario,
+    testing::Values(
+        Spoilt{"weight: true", "weight: yes", "weight", "^'yes' is not a truth value; give true or false$"},
+        Spoilt{"weight: true", "weight:", "weight", "^is empty; give true or false$"},
+        Spoilt{"weight: true", "weight: [true]", "weight", "^is a sequence; give true or false$"},
+        Spoilt{"{method: static, max_iterations: 100}", "static", "relaxation", "^is 'static'; give a mapping of keys"},
+        Spoilt{"{method: static, max_iterations: 100}", "[static]", "relaxation", "^is a sequence; give a mapping"},
+        Spoilt{"{method: static, max_iterations: 100}", "", "relaxation", "^is empty; give a mapping"},
+        Spoilt{"method: static", "method: dynamic", "relaxation.method",
+               "^'dynamic' is not known; give 'static' or 'kinematic'$"},
+        Spoilt{"profile: apical_flat", "profile: apical", "organs[0].growth.profile", "give 'logistic', 'uniform' or"},
+        Spoilt{"mode: keep_strain", "mode: keep", "organs[0].division.mode", "'keep_strain' or 'keep_positions'$"},
+        Spoilt{"[0 mm, 0 mm, 0 mm]", "[0 mm, 0 mm]", "organs[0].base.position", "^has 2 components; give a sequence"},
+        Spoilt{"[0 mm, 0 mm, 0 mm]", "0 mm", "organs[0].base.position",
+               "^is '0 mm'; give a sequence of three, each a l"},
+        Spoilt{"[0 mm, 0 mm, 0 mm]", "[0 mm, [0 mm], 0 mm]", "organs[0].base.position[1]",
+               "^is a sequence; give a len"},
+        Spoilt{"radius: 0.8 mm", "radius: {value: 0.8 mm}", "organs[0].radius", "^is a mapping; give a length"},
+        Spoilt{"name: one_organ", "name: one organ", "name", "^'one organ' is not a valid name"},
+        Spoilt{"name: one_organ", "name: ''", "name", "^'' is not a valid name"},
+        Spoilt{"- id: first", "- id: 1st", "organs[0].id", "^'1st' is not a valid name; give a letter"},
+        Spoilt{"{id: lamp, pos", "{id: lamp/a, pos", "stimuli.point_sources[0].id", "not a valid name"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Meaning, SpoiltScenario,
+    testing::Values(
+        Spoilt{"poisson_ratio: 0.5", "poisson_ratio: 0.5, shear_modulus: 3 MPa", "organs[0].material",
+               "^needs exactly one of 'poisson_ratio' and 'shear_modulus'$"},
+        Spoilt{"at: 3 h", "at: 1 h", "protocol[1].at", "^'1 h' is earlier than the entry before it, on line 27;"},
+        Spoilt{"remove: {point_source: {id: lamp}}", "add: {}, remove: {}", "protocol[1]", "needs exactly one of"},
+        Spoilt{"remove: {point_source: {id: lamp}}", "remove: {}", "protocol[1].remove",
+               "^needs exactly one of 'point_source' and 'light_direction'$"},
+        Spoilt{"remove: {point_source: {id: lamp}}", "remove: {point_source: {id: lamp, strength: 1}}",
+               "protocol[1].remove.point_source.strength", "unknown key; known here are 'id'$"},
+        Spoilt{"remove: {point_source: {id: lamp}}", "remove: {light_direction: {id: lamp}}", "protocol[1].remove",
+               "no light_direction 'lamp'"},
+        Spoilt{"change: {light_direction: {id: sun,", "change: {light_direction: {id: moon,", "protocol[0].change",
+               "no light_direction 'moon'"}));
+
+TEST(ScenarioYaml, IdsAreUniqueWithinTheirKind) {
+  std::string twice = valid;
+  const std::string lamp = "    - {id: lamp, position: [10 cm, 0 m, 10 cm], strength: 1}\n";
+  twice.insert(twice.find(lamp), lamp);
+  EXPECT_EQ(list(problemsOf(twice)),
+            "test:24: stimuli.point_sources[1].id: 'lamp' is already used on line 23; ids are unique");
+
+  std::string same_id_of_another_kind = valid;
+  same_id_of_another_kind.replace(same_id_of_another_kind.find("id: lamp, pos"), 8, "id: sun");
+  EXPECT_THAT(list(problemsOf(same_id_of_another_kind)), HasSubstr("protocol[1].remove: there is no"));
+
+  const std::size_t begin = valid.find("  - id: first"), end = valid.find("stimuli:");
+  std::string two_organs = valid;
+  two_organs.insert(end, valid.substr(begin, end - begin));
+  EXPECT_EQ(list(problemsOf(two_organs)), "test:21: organs[1].id: 'first' is already used on line 10; ids are unique");
+}
+
+TEST(ScenarioYaml, DuplicateKeyNamesBothLines) {
+  std::string twice = valid;
+  twice.insert(twice.find("organs:"), "duration: 9 h\n");
+  EXPECT_EQ(list(problemsOf(twice)), "test:9: duration: is given twice, first on line 4");
+}
+
+TEST(ScenarioYaml, KinematicRelaxationRefusesWhatItWouldIgnore) {
+  std::string kinematic = valid;
+  const auto replace = [&](const std::string& piece, const std::string& replacement) {
+    kinematic.replace(kinematic.find(piece), piece.size(), replacement);
+  };
+  replace("method: static", "method: kinematic");
+  replace("keep_strain", "keep_positions");
+  replace("[0 N, 0 N, 0 N]", "[1 N, 0 N, 0 N]");
+  EXPECT_EQ(
+      list(problemsOf(kinematic)),
+      "test:3: weight: 'true' has no effect with kinematic relaxation; give false\n"
+      "test:8: relaxation.max_iterations: is an unknown key; known here are 'method'\n"
+      "test:19: organs[0].division.mode: 'keep_positions' needs static relaxation: it leaves a strain defect that "
+      "kinematic relaxation never removes; give 'keep_strain'\n"
+      "test:20: organs[0].tip_force: has no effect with kinematic relaxation; leave it out");
+}
+
+TEST(ScenarioYaml, AtLeastOneOrganIsNeeded) {
+  std::string without = valid;
+  const std::size_t begin = without.find("organs:"), end = without.find("stimuli:");
+  without.replace(begin, end - begin, "organs: []\n");
+  EXPECT_EQ(list(problemsOf(without)), "test:9: organs: is empty; give one entry at least");
+}
+
+TEST(ScenarioYaml, AllProblemsOfAFileAreReportedInOrderOfLine) {
+  const std::string file = bad + "many_problems.yaml";
+  try {
+    loadScenario(file);
+    FAIL() << "no error";
+  } catch (const ScenarioError& error) {
+    EXPECT_EQ(
+        std::string(error.what()),
+        file + ":1: name: 'wheat coleoptile' is not a valid name; give a letter followed by letters, digits and '_'\n" +
+            file + ":1: weight: is missing; give true or false\n" + file +
+            ":2: gravity.direction: has zero length; a direction needs a component that is not 0\n" + file +
+            ":2: gravity.acceleration: '9.81 m/s' is in units of m.s-1; give an acceleration such as '9.81 m/s^2'\n" +
+            file + ":3: wieght: is an unknown key; did you mean 'weight'?\n" + file +
+            ":4: stepping.step: '0 min' is out of range; must be > 0 s\n" + file +
+            ":7: organs[0].base.position: has 2 components; give a sequence of three, each a length such as '0.8 "
+            "mm'\n" +
+            file + ":10: organs[0].radius: '0.8' has no unit; give a length such as '0.8 mm'\n" + file +
+            ":11: organs[0].material: needs exactly one of 'poisson_ratio' and 'shear_modulus'\n" + file +
+            ":12: organs[0].growth.zone_length: is an unknown key; known here are 'elongation', 'profile' and "
+            "'rate'\n" +
+            file + ":13: organs[0].sensitivities.softening_length: is missing; give a length such as '0.8 mm'\n" +
+            file +
+            ":14: organs[0].proprioception_length: '1,5 mm' does not begin with a finite number and a blank; give a "
+            "length such as '0.8 mm'");
+    EXPECT_EQ(error.problems().size(), 12u);
+  }
+}
+
+struct BadFile {
+  const char* name;
+  const char* message;
+};
+
+void PrintTo(const BadFile& file, std::ostream* out) { *out << file.name; }
+
+class UnreadableFile : public testing::TestWithParam<BadFile> {};
+
+TEST_P(UnreadableFile, IsRefusedByName) {
+  const std::string file = bad + GetParam().name;
+  const std::string problems = list(problemsOf([&] { loadScenario(file); }));
+  EXPECT_THAT(problems, ContainsRegex(std::string("^test") + GetParam().message));
+  EXPECT_EQ(problems, list(problemsOf([&] { loadProtocol(file); })));
+  try {
+    loadScenario(file);
+  } catch (const ScenarioError& error) {
+    EXPECT_THAT(error.what(), testing::StartsWith(file + ":"));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, UnreadableFile,
+                         testing::Values(BadFile{"absent.yaml", ": cannot be read: No such file or directory$"},
+                                         BadFile{"", ": cannot be read: Is a directory$"},
+                                         BadFile{"empty.yaml", ": is empty$"},
+                                         BadFile{"only_a_comment.yaml", ": is empty$"},
+                                         BadFile{"a_sequence.yaml", ":1: is a sequence; give a mapping$"},
+                                         BadFile{"two_documents.yaml", ":4: a second document begins here; give one$"},
+                                         BadFile{"not_yaml.yaml", ":3: not valid YAML: "}));
+
+TEST(ProtocolYaml, IsReadOnItsOwn) {
+  const std::vector<TimedStimulus> p = loadProtocol(good + "protocol.yaml");
+  ASSERT_EQ(p.size(), 3u);
+  expectStimulus(p[0], 0, StimulusOperation::add, StimulusKind::light_direction, "left", {-1, 0, 0}, 1);
+  expectStimulus(p[1], 0, StimulusOperation::remove, StimulusKind::light_direction, "sun", {}, 0);
+  expectStimulus(p[2], 5400, StimulusOperation::remove, StimulusKind::light_direction, "left", {}, 0);
+}
+
+TEST(ProtocolYaml, RefusesTheOtherKeysOfAScenario) {
+  const auto problems = [](const std::string& yaml) { return list(problemsOf([&] { parseProtocol(yaml, "test"); })); };
+  EXPECT_EQ(problems("name: a\nprotocol: []\nduration: 1 h\n"),
+            "test:3: duration: is an unknown key; known here are 'name', 'description', 'stimuli' and 'protocol'");
+  EXPECT_EQ(problems("name: a\n"), "test:1: protocol: is missing; give a sequence of mappings");
+  EXPECT_EQ(problems("name: a\nprotocol:\n  - {at: 1 h, remove: {point_source: {id: b}}}\n  - {at: 59 min, remove: "
+                     "{point_source: {id: b}}}\n"),
+            "test:4: protocol[1].at: '59 min' is earlier than the entry before it, on line 3; entries are in order of "
+            "time");
+}
+
+std::vector<std::string> yamlFiles(const std::string& folder) {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() == ".yaml") files.push_back(entry.path().string());
+  }
+  return files;
+}
+
+TEST(ShippedFiles, AreValid) {
+  const std::vector<std::string> scenarios = yamlFiles("../config");
+  const std::vector<std::string> protocols = yamlFiles("../config/stimuli");
+  EXPECT_FALSE(scenarios.empty());
+  EXPECT_FALSE(protocols.empty());
+  for (const std::string& file : scenarios) EXPECT_NO_THROW(loadScenario(file)) << file;
+  for (const std::string& file : protocols) EXPECT_NO_THROW(loadProtocol(file)) << file;
+}
+
+/// Key paths in the first column of the tables of docs/scenario.md.
+std::set<std::string> documentedKeys() {
+  std::set<std::string> keys;
+  std::ifstream in("../docs/scenario.md");
+  const std::regex row(R"(^\| `([a-z_.\[\]]+)` \|.*)");
+  std::smatch match;
+  for (std::string line; std::getline(in, line);) {
+    if (std::regex_match(line, match, row)) keys.insert(match[1]);
+  }
+  return keys;
+}
+
+/// Paths of the values in a file, down to the first that is documented.
+void collectKeys(const YAML::Node& node, const std::string& path, const std::set<std::string>& documented,
+                 std::set<std::string>& keys) {
+  if (documented.count(path) > 0 || node.IsScalar()) {
+    keys.insert(path);
+  } else if (node.IsMap()) {
+    for (const auto& item : node) {
+      collectKeys(item.second, path + (path.empty() ? "" : ".") + item.first.Scalar(), documented, keys);
+    }
+  } else {
+    for (const auto& item : node) collectKeys(item, path + "[]", documented, keys);
+  }
+}
+
+TEST(Documentation, NamesExactlyTheKeysOfTheGoodFiles) {
+  const std::set<std::string> documented = documentedKeys();
+  std::set<std::string> used;
+  for (const std::string& file : yamlFiles(good)) collectKeys(YAML::LoadFile(file), "", documented, used);
+  EXPECT_THAT(used, testing::ContainerEq(documented));
+}
+
+/// Spoils a text in one of the ways that people and disks do.
+std::string mutate(std::string text, std::mt19937& random) {
+  static const std::vector<std::string> snippets = {"inf",
+                                                    "nan",
+                                                    "-",
+                                                    "[",
+                                                    "]",
+                                                    "{",
+                                                    "}",
+                                                    ": ",
+                                                    "\n",
+                                                    "\t",
+                                                    "'",
+                                                    "\"",
+                                                    "&a ",
+                                                    "*a",
+                                                    "---",
+                                                    "- ",
+                                                    "#",
+                                                    "? ",
+                                                    "1e999",
+                                                    "<<: ",
+                                                    "!!",
+                                                    "|",
+                                                    ">",
+                                                    "%",
+                                                    std::string(1, '\0'),
+                                                    "\xff",
+                                                    "\xc2",
+                                                    "mm",
+                                                    "1 ",
+                                                    "~ ",
+                                                    ", ",
+                                                    "id: a",
+                                                    "0x1",
+                                                    "...",
+                                                    "@",
+                                                    "^",
+                                                    "-9 ",
+                                                    "s ",
+                                                    "99999999999999999999"};
+  const auto below = [&](std::size_t n) { return std::uniform_int_distribution<std::size_t>(0, n - 1)(random); };
+  for (std::size_t changes = 1 + below(3); changes > 0; --changes) {
+    const std::size_t at = below(text.size()), size = below(1 + std::min<std::size_t>(12, text.size() - at));
+    switch (below(5)) {
+      case 0:
+        text[at] = static_cast<char>(below(256));
+        break;
+      case 1:
+        text.erase(at, size);
+        break;
+      case 2:
+        text.insert(at, snippets[below(snippets.size())]);
+        break;
+      case 3:
+        text.insert(below(text.size()), text.substr(at, size));
+        break;
+      case 4:
+        text.replace(at, size, snippets[below(snippets.size())]);
+        break;
+    }
+    if (text.empty()) text = " ";
+  }
+  return text;
+}
+
+TEST(ScenarioYaml, SpoiltTextIsReadOrRefusedButNothingElse) {
+  const std::string original = contentOf(good + "all_keys.yaml");
+  std::mt19937 random(20);
+  int refused = 0;
+  constexpr int trials = 1500;
+  for (int i = 0; i < trials; ++i) {
+    const std::string text = mutate(original, random);
+    try {
+      const Scenario scenario = parseScenario(text, "test");
+      EXPECT_GT(scenario.stepping.step, 0.0) << text;
+      EXPECT_FALSE(scenario.organs.empty()) << text;
+      for (const OrganScenario& organ : scenario.organs) {
+        EXPECT_TRUE(std::isfinite(organ.length) && organ.length > 0.0) << text;
+        EXPECT_TRUE(organ.base.position.allFinite() && organ.base.frame.coeffs().allFinite()) << text;
+        EXPECT_GT(organ.section.shear_modulus, 0.0) << text;
+      }
+    } catch (const ScenarioError& error) {
+      ++refused;
+      EXPECT_FALSE(error.problems().empty());
+    }
+  }
+  EXPECT_GT(refused, trials / 2);
+  EXPECT_LT(refused, trials);
+}
+
+}  // namespace
+}  // namespace sensory_growth::simulation
