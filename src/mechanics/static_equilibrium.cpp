@@ -209,11 +209,34 @@ const char* name(RelaxationReason reason) {
   return "?";
 }
 
+namespace {
+
+/// What a person can do about it.
+const char* advice(RelaxationReason reason) {
+  switch (reason) {
+    case RelaxationReason::converged:
+      return "";
+    case RelaxationReason::too_many_iterations:
+      return "; allow more iterations or take shorter steps";
+    case RelaxationReason::line_search_failed:
+      return "; take shorter steps";
+    case RelaxationReason::unstable:
+      return "; take shorter steps or allow more branch switches";
+    case RelaxationReason::unresolved_bend:
+      return "; use shorter elements";
+    case RelaxationReason::not_finite:
+      return "; a length, force or curvature is not a number";
+  }
+  return "";
+}
+
+}  // namespace
+
 std::string describe(const RelaxationReport& report) {
   std::ostringstream out;
   out << name(report.reason) << " after " << report.iterations << " Newton iterations, scaled residual "
       << report.residual << ", lowest eigenvalue " << report.lowest_eigenvalue << " N m, " << report.branch_switches
-      << " branch switches, largest turn between elements " << report.largest_bend << " rad";
+      << " branch switches, largest turn between elements " << report.largest_bend << " rad" << advice(report.reason);
   return out.str();
 }
 

@@ -1,0 +1,52 @@
+#pragma once
+
+/// Between the types of the core and messages. Pure functions.
+
+#include <geometry_msgs/Point.h>
+#include <geometry_msgs/PointStamped.h>
+#include <geometry_msgs/Pose.h>
+#include <geometry_msgs/Quaternion.h>
+#include <geometry_msgs/Vector3.h>
+#include <geometry_msgs/Vector3Stamped.h>
+
+#include <optional>
+#include <string>
+
+#include "sensory_growth/AppliedStimulus.h"
+#include "sensory_growth/LightDirection.h"
+#include "sensory_growth/OrganState.h"
+#include "sensory_growth/PointSource.h"
+#include "sensory_growth/Relaxation.h"
+#include "sensory_growth/Stimuli.h"
+#include "sensory_growth/rod/rod.h"
+#include "sensory_growth/ros/snapshot.h"
+#include "sensory_growth/simulation/stimuli.h"
+
+namespace sensory_growth::node {
+
+geometry_msgs::Point toPoint(const rod::Vector3& v);
+geometry_msgs::Vector3 toVector(const rod::Vector3& v);
+geometry_msgs::Quaternion toQuaternion(const rod::Quaternion& q);
+
+/// The quaternion is normalised, as tf2 and rviz demand.
+geometry_msgs::Pose toPose(const rod::Pose& pose);
+
+std_msgs::Header makeHeader(const Snapshot& snapshot, const std::string& frame);
+
+Relaxation toMessage(const simulation::OrganReport& report);
+OrganState toMessage(const OrganSnapshot& organ, const Snapshot& snapshot, const std::string& frame);
+Stimuli toStimuli(const Snapshot& snapshot, const std::string& frame);
+AppliedStimulus toMessage(const simulation::AppliedStimulus& stimulus, const Snapshot& snapshot,
+                          const std::string& frame);
+
+/// Nothing if the operation is none of ADD, CHANGE and REMOVE. The vector stays in the frame of the message.
+std::optional<simulation::StimulusCommand> toCommand(const PointSource& message);
+std::optional<simulation::StimulusCommand> toCommand(const LightDirection& message);
+
+/// Places or moves the lamp `names::kClickedLamp`.
+simulation::StimulusCommand toCommand(const geometry_msgs::PointStamped& message);
+
+/// Sets the light `names::kSunLight`.
+simulation::StimulusCommand toCommand(const geometry_msgs::Vector3Stamped& message);
+
+}  // namespace sensory_growth::node

@@ -1,0 +1,61 @@
+#pragma once
+
+/// Every name the node shows to others, in one place; all can be remapped (ros.md 15).
+
+#include <string>
+
+namespace sensory_growth::node::names {
+
+// Private topics in.
+inline constexpr char kPointSource[] = "point_source";
+inline constexpr char kLightDirection[] = "light_direction";
+
+// Relative topics in, of standard types.
+inline constexpr char kClickedPoint[] = "clicked_point";
+inline constexpr char kSun[] = "sun";
+
+// Private topics out.
+inline constexpr char kOrgans[] = "organs";  // organs/<id>/state
+inline constexpr char kState[] = "state";
+inline constexpr char kStatus[] = "status";
+inline constexpr char kStimuli[] = "stimuli";
+inline constexpr char kAppliedStimuli[] = "applied_stimuli";
+inline constexpr char kScenario[] = "scenario";
+inline constexpr char kProtocol[] = "protocol";
+inline constexpr char kParameters[] = "parameters";
+inline constexpr char kMarkers[] = "markers";
+
+// Absolute topics out.
+inline constexpr char kClock[] = "/clock";
+inline constexpr char kTf[] = "/tf";
+inline constexpr char kTfStatic[] = "/tf_static";
+
+// Private services.
+inline constexpr char kPause[] = "pause";
+inline constexpr char kResume[] = "resume";
+inline constexpr char kReset[] = "reset";
+inline constexpr char kStep[] = "step";
+inline constexpr char kStartRecording[] = "start_recording";
+inline constexpr char kStopRecording[] = "stop_recording";
+
+// Ids of the stimuli that topics of standard types set.
+inline constexpr char kClickedLamp[] = "clicked";
+inline constexpr char kSunLight[] = "sun";
+
+// Frames of an organ, <prefix><organ>/<frame>.
+inline constexpr char kBaseFrame[] = "base";
+inline constexpr char kTipFrame[] = "tip";
+inline constexpr char kStationFrame[] = "station_";  // station_1 is nearest to the base
+
+// Marker namespaces: <organ>/<layer>, and <layer>/<id> for stimuli.
+inline constexpr char kBodyMarker[] = "body";
+inline constexpr char kTipMarker[] = "tip";
+inline constexpr char kLampMarker[] = "point_source";
+inline constexpr char kLightMarker[] = "light_direction";
+
+// Loggers, children of ros.sensory_growth.
+inline constexpr char kLogSimulation[] = "sim";
+inline constexpr char kLogRos[] = "ros";
+inline constexpr char kLogRecording[] = "recording";
+
+}  // namespace sensory_growth::node::names

@@ -1,0 +1,80 @@
+#pragma once
+
+/// The simulation as a ROS node: wires loop, clock, topics, services and diagnostics together.
+
+#include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+#include <ros/service_server.h>
+#include <ros/spinner.h>
+#include <ros/wall_timer.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sensory_growth/Command.h"
+#include "sensory_growth/StartRecording.h"
+#include "sensory_growth/Step.h"
+#include "sensory_growth/StopRecording.h"
+#include "sensory_growth/ros/clock.h"
+#include "sensory_growth/ros/diagnostics.h"
+#include "sensory_growth/ros/parameters.h"
+#include "sensory_growth/ros/publishers.h"
+#include "sensory_growth/ros/signals.h"
+#include "sensory_growth/ros/simulation_loop.h"
+#include "sensory_growth/ros/stimulus_counters.h"
+#include "sensory_growth/ros/stimulus_intake.h"
+
+namespace sensory_growth::node {
+
+/// A scenario as read and as parsed, with the stimuli of the protocol added.
+struct LoadedScenario {
+  simulation::Scenario scenario;
+  Sources sources;
+};
+
+/// Reads the files that the parameters name and checks what depends on both. Appends what is wrong to `problems`; the
+/// result is meaningful only if nothing was.
+LoadedScenario loadScenario(const Parameters& parameters, std::vector<std::string>& problems);
+
+class Node {
+ public:
+  /// Throws std::exception if the simulation cannot be built or the bag of ~record not opened.
+  Node(const Parameters& parameters, LoadedScenario loaded);
+
+  /// Answers waiting services, closes the bag.
+  ~Node();
+
+  /// Runs until a signal, a shutdown of ROS, or the end of the scenario if ~exit_when_finished. Returns the exit code.
+  int run(const Signals& signals);
+
+ private:
+  void startRecording(const StartRecording::Request& request, StartRecording::Response& response);
+  void stopRecording(StopRecording::Response& response);
+  void advertiseServices();
+  void startTimers();
+  void logProgress() const;
+
+  const Parameters parameters_;
+  const double duration_;  // growth time [s]
+  const double step_;      // ROS time [s]
+  ros::NodeHandle node_, private_node_;
+
+  // A service that blocks must not keep others waiting, nor the topics: each kind has its own queue and thread.
+  ros::CallbackQueue control_queue_, step_queue_;
+
+  StimulusCounters counters_;
+  Clock clock_;
+  Publishers publishers_;
+  SimulationLoop loop_;
+  std::unique_ptr<StimulusIntake> intake_;
+  std::unique_ptr<Diagnostics> diagnostics_;
+  std::vector<ros::ServiceServer> services_;
+  std::vector<ros::WallTimer> timers_;
+  ros::AsyncSpinner topic_spinner_, control_spinner_, step_spinner_;
+};
+
+/// Everything from the parameters to the exit code. `ros::init` comes before.
+int runNode(const Signals& signals);
+
+}  // namespace sensory_growth::node

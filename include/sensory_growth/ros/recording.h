@@ -1,0 +1,105 @@
+#pragma once
+
+/// One bag being written, on a thread of its own. Nothing that was handed in is lost while the disk takes it: a full
+/// queue makes the caller wait.
+
+#include <ros/message_traits.h>
+#include <ros/time.h>
+#include <rosbag/bag.h>
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "sensory_growth/ros/parameters.h"
+
+namespace sensory_growth::node {
+
+struct RecordingSettings {
+  Compression compression = Compression::lz4;
+  double minimum_free_space = 0.0;  ///< recording stops when the disk has less [byte]
+  std::string caller;               ///< name of the node, kept with every topic
+};
+
+struct RecordingSummary {
+  std::string path;
+  std::uint64_t messages = 0;
+  std::string error;  ///< why recording ended early; empty if it did not
+};
+
+/// Path of `file` inside `directory`. Throws std::invalid_argument unless `file` is a plain name that ends in ".bag"
+/// and neither it nor its unfinished form exists.
+std::string recordingPath(const std::string& directory, const std::string& file);
+
+class Recording {
+ public:
+  /// Opens `path` with the suffix ".active". Throws std::runtime_error if that fails or the disk is too full.
+  Recording(const std::string& path, const RecordingSettings& settings);
+
+  /// Finishes.
+  ~Recording();
+
+  /// Queues a message. Latched topics are latched again on playback. `stamp` must be later than zero.
+  template <typename Message>
+  void write(const std::string& topic, bool is_latched, const ros::Time& stamp, Message message) {
+    push([this, topic, is_latched, stamp, message = std::move(message)](rosbag::Bag& bag) {
+      using ros::message_traits::DataType;
+      using ros::message_traits::Definition;
+      using ros::message_traits::MD5Sum;
+      using Content = std::decay_t<decltype(*message)>;
+      auto& header = headers_[topic];
+      if (!header) {
+        header = boost::make_shared<ros::M_string>(ros::M_string{{"type", DataType<Content>::value()},
+                                                                 {"md5sum", MD5Sum<Content>::value()},
+                                                                 {"message_definition", Definition<Content>::value()},
+                                                                 {"latching", is_latched ? "1" : "0"},
+                                                                 {"callerid", settings_.caller}});
+      }
+      bag.write(topic, stamp, *message, header);
+    });
+  }
+
+  /// True once writing has failed; what is handed in afterwards is dropped.
+  bool failed() const { return failed_; }
+
+  const std::string& path() const { return path_; }
+
+  /// Writes what is queued, closes the bag and takes the suffix away. May be called again.
+  RecordingSummary finish();
+
+ private:
+  using Entry = std::function<void(rosbag::Bag&)>;
+
+  void push(Entry entry);
+  void run();
+  void writeEntry(const Entry& entry);
+  void fail(const std::string& why);
+  bool hasSpace() const;
+
+  const std::string path_;
+  const RecordingSettings settings_;
+
+  // Of the writing thread alone, and of finish() once that has ended.
+  rosbag::Bag bag_;
+  std::map<std::string, boost::shared_ptr<ros::M_string>> headers_;
+  std::uint64_t messages_ = 0;
+  std::string error_;
+
+  std::atomic<bool> failed_{false};
+  std::mutex finish_mutex_;  // locked before mutex_
+  std::mutex mutex_;         // guards what follows
+  std::condition_variable changed_;
+  std::deque<Entry> queue_;
+  bool is_finishing_ = false;
+
+  std::thread thread_;
+};
+
+}  // namespace sensory_growth::node

@@ -1,0 +1,156 @@
+#pragma once
+
+/// The thread that owns the simulation: it takes commands at step boundaries, steps at the pace asked for, and shows
+/// every state to one listener. It calls ROS only for the clock.
+
+#include <ros/time.h>
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <future>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "sensory_growth/ros/clock.h"
+#include "sensory_growth/ros/command_queue.h"
+#include "sensory_growth/ros/pacer.h"
+#include "sensory_growth/ros/snapshot.h"
+#include "sensory_growth/ros/stimulus_counters.h"
+#include "sensory_growth/simulation/simulation.h"
+
+namespace sensory_growth::node {
+
+enum class Mode {
+  paused,
+  running,
+  finished,  ///< the duration of the scenario is reached; step and reset still work
+  fault,     ///< a step failed; the last good state is kept and reset recovers
+};
+
+struct LoopStatus {
+  Mode mode = Mode::paused;
+  std::string message;  ///< what is wrong; empty if nothing is
+  double achieved_real_time_factor = 0.0;
+  std::uint64_t overruns = 0;
+};
+
+/// What a service answers.
+struct Answer {
+  bool success = false;
+  std::string message;
+  std::uint64_t step_index = 0;
+  ros::Time stamp;
+};
+
+/// Sees everything that happens, in order, on the thread of the loop.
+class LoopListener {
+ public:
+  virtual ~LoopListener() = default;
+
+  /// A new state: the first, after a step, or after a reset.
+  virtual void onState(const SnapshotPtr& snapshot) = 0;
+
+  /// A stimulus command was taken while the state of `snapshot` was current.
+  virtual void onStimulus(const simulation::AppliedStimulus& stimulus, const Snapshot& snapshot) = 0;
+
+  /// The stimuli in force are those of `snapshot`.
+  virtual void onStimuli(const Snapshot& snapshot) = 0;
+
+  virtual void onStatus(const LoopStatus& status, const Snapshot& snapshot) = 0;
+};
+
+class SimulationLoop {
+ public:
+  struct Settings {
+    double step = 0.0;  ///< ROS time of a step [s]
+    double real_time_factor = 1.0;
+    bool start_paused = false;
+  };
+
+  /// Most steps one call of step() may ask for.
+  static constexpr std::uint32_t kMostSteps = 1000000;
+
+  /// Shows the first state to the listener. The references must outlive the loop.
+  SimulationLoop(simulation::Simulation simulation, const Settings& settings, Clock& clock, StimulusCounters& counters,
+                 LoopListener& listener);
+  ~SimulationLoop();
+
+  /// Starts the thread.
+  void start();
+
+  /// Ends the thread at the next step boundary; callers that wait are told. Nothing can be asked afterwards.
+  void stop();
+
+  // From any thread but that of the loop. Each answers after its effect was shown to the listener.
+  Answer pause();
+  Answer resume();
+  Answer reset();
+  Answer step(std::uint32_t steps);
+
+  /// Runs `action` on the thread of the loop between two steps and shows the status afterwards. What `action` returns
+  /// is why it failed, or nothing.
+  Answer atBoundary(const std::function<std::optional<std::string>(const Snapshot&)>& action);
+
+  /// Queues a stimulus for the next step boundary; false if too many wait.
+  bool send(const simulation::StimulusCommand& stimulus) { return queue_.push(stimulus); }
+
+  /// Shows the status again soon, because something that it counts has changed.
+  void refreshStatus();
+
+  SnapshotPtr snapshot() const;
+  LoopStatus status() const;
+
+ private:
+  using Reply = std::shared_ptr<std::promise<Answer>>;
+
+  struct StepRequest {
+    std::uint32_t asked = 0;
+    std::uint32_t done = 0;
+    Reply reply;
+  };
+
+  Answer ask(const std::function<void(const Reply&)>& request);
+  Answer answer(bool success, const std::string& message);
+
+  void run();
+  void execute(const Command& command);
+  void pauseNow(const Reply& reply);
+  void resumeNow(const Reply& reply);
+  void resetNow(const Reply& reply);
+  void stepNow(const Reply& reply, std::uint32_t steps);
+  void applyNow(const simulation::StimulusCommand& stimulus);
+  bool wantsStep() const { return step_request_ || mode_ == Mode::running; }
+  void advance();
+  void abortSteps(const std::string& why);
+  void setMode(Mode mode, const std::string& message = "");
+  void showFirstState();
+  void setSnapshot(const ros::Time& stamp);
+  bool showApplied();
+  void showStatus();
+
+  // Of the loop's thread alone.
+  simulation::Simulation simulation_;
+  Clock& clock_;
+  StimulusCounters& counters_;
+  LoopListener& listener_;
+  Pacer pacer_;
+  Mode mode_;
+  std::string message_;
+  std::uint32_t epoch_ = 0;
+  std::optional<StepRequest> step_request_;
+
+  CommandQueue queue_;
+  std::atomic<bool> refresh_waits_{false};
+
+  mutable std::mutex shown_mutex_;  // guards what follows; nothing else is locked while it is held
+  SnapshotPtr snapshot_;
+  LoopStatus status_;
+
+  std::thread thread_;
+};
+
+}  // namespace sensory_growth::node

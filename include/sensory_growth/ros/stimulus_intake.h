@@ -1,0 +1,65 @@
+#pragma once
+
+/// From topics to stimulus commands in the world frame. Nothing gets through that is malformed; everything refused is
+/// counted and reported.
+
+#include <geometry_msgs/PointStamped.h>
+#include <geometry_msgs/Vector3Stamped.h>
+#include <ros/node_handle.h>
+#include <ros/subscriber.h>
+#include <ros/wall_timer.h>
+#include <tf2/buffer_core.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <chrono>
+#include <deque>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "sensory_growth/LightDirection.h"
+#include "sensory_growth/PointSource.h"
+#include "sensory_growth/ros/stimulus_counters.h"
+#include "sensory_growth/ros/wall_throttle.h"
+#include "sensory_growth/simulation/stimuli.h"
+
+namespace sensory_growth::node {
+
+/// All callbacks come from the global queue, which one thread serves.
+class StimulusIntake {
+ public:
+  struct Outputs {
+    std::function<bool(const simulation::StimulusCommand&)> send;  ///< false: too many wait already
+    std::function<void()> refused;                                 ///< called after each refusal
+  };
+
+  /// `counters` must outlive the intake.
+  StimulusIntake(ros::NodeHandle node, ros::NodeHandle private_node, std::string world_frame,
+                 StimulusCounters& counters, Outputs outputs);
+
+ private:
+  /// A command whose vector is still in the frame of its message.
+  struct Waiting {
+    simulation::StimulusCommand command;
+    std_msgs::Header header;
+    std::chrono::steady_clock::time_point deadline;
+  };
+
+  void receive(const std::optional<simulation::StimulusCommand>& command, const std_msgs::Header& header);
+  void drain();
+  bool toWorld(const std_msgs::Header& header, simulation::StimulusCommand& command, std::string& why_not) const;
+  void refuse(StimulusFate fate, const std::string& why);
+
+  const std::string world_frame_;
+  StimulusCounters& counters_;
+  const Outputs outputs_;
+  std::deque<Waiting> waiting_;  // oldest first
+  WallThrottle warnings_;
+
+  tf2::BufferCore transforms_;
+  tf2_ros::TransformListener listener_;
+  ros::Subscriber point_source_, light_direction_, clicked_point_, sun_;
+  ros::WallTimer retry_;
+};
+
+}  // namespace sensory_growth::node

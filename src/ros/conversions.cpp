@@ -1,0 +1,228 @@
+#include "sensory_growth/ros/conversions.h"
+
+#include "sensory_growth/ros/names.h"
+
+namespace sensory_growth::node {
+namespace {
+
+using mechanics::RelaxationReason;
+using simulation::StimulusCommand;
+using simulation::StimulusKind;
+using simulation::StimulusOperation;
+
+std::uint8_t toConstant(RelaxationReason reason) {
+  switch (reason) {
+    case RelaxationReason::converged:
+      return Relaxation::CONVERGED;
+    case RelaxationReason::too_many_iterations:
+      return Relaxation::TOO_MANY_ITERATIONS;
+    case RelaxationReason::line_search_failed:
+      return Relaxation::LINE_SEARCH_FAILED;
+    case RelaxationReason::unstable:
+      return Relaxation::UNSTABLE;
+    case RelaxationReason::unresolved_bend:
+      return Relaxation::UNRESOLVED_BEND;
+    case RelaxationReason::not_finite:
+      return Relaxation::NOT_FINITE;
+  }
+  return Relaxation::NOT_FINITE;
+}
+
+std::uint8_t toConstant(StimulusKind kind) {
+  return kind == StimulusKind::point_source ? AppliedStimulus::POINT_SOURCE : AppliedStimulus::LIGHT_DIRECTION;
+}
+
+std::uint8_t toConstant(StimulusOperation operation) {
+  switch (operation) {
+    case StimulusOperation::add:
+      return AppliedStimulus::ADD;
+    case StimulusOperation::change:
+      return AppliedStimulus::CHANGE;
+    case StimulusOperation::remove:
+      return AppliedStimulus::REMOVE;
+  }
+  return AppliedStimulus::ADD;
+}
+
+/// PointSource and LightDirection number their operations alike.
+std::optional<StimulusOperation> toOperation(std::uint8_t constant) {
+  static_assert(static_cast<int>(PointSource::ADD) == static_cast<int>(LightDirection::ADD));
+  static_assert(static_cast<int>(PointSource::CHANGE) == static_cast<int>(LightDirection::CHANGE));
+  static_assert(static_cast<int>(PointSource::REMOVE) == static_cast<int>(LightDirection::REMOVE));
+  switch (constant) {
+    case PointSource::ADD:
+      return StimulusOperation::add;
+    case PointSource::CHANGE:
+      return StimulusOperation::change;
+    case PointSource::REMOVE:
+      return StimulusOperation::remove;
+    default:
+      return std::nullopt;
+  }
+}
+
+template <typename Xyz>
+rod::Vector3 toEigen(const Xyz& v) {
+  return {v.x, v.y, v.z};
+}
+
+std::optional<StimulusCommand> makeCommand(StimulusKind kind, std::uint8_t operation, const std::string& id,
+                                           const rod::Vector3& vector, double strength) {
+  const std::optional<StimulusOperation> known = toOperation(operation);
+  if (!known) return std::nullopt;
+  StimulusCommand command{kind, *known, id, vector, strength};
+  if (*known == StimulusOperation::remove) {
+    command.vector.setZero();  // documented as ignored, so it must not be refused either
+    command.strength = 0.0;
+  }
+  return command;
+}
+
+}  // namespace
+
+geometry_msgs::Point toPoint(const rod::Vector3& v) {
+  geometry_msgs::Point point;
+  point.x = v.x();
+  point.y = v.y();
+  point.z = v.z();
+  return point;
+}
+
+geometry_msgs::Vector3 toVector(const rod::Vector3& v) {
+  geometry_msgs::Vector3 vector;
+  vector.x = v.x();
+  vector.y = v.y();
+  vector.z = v.z();
+  return vector;
+}
+
+geometry_msgs::Quaternion toQuaternion(const rod::Quaternion& q) {
+  geometry_msgs::Quaternion quaternion;
+  quaternion.x = q.x();
+  quaternion.y = q.y();
+  quaternion.z = q.z();
+  quaternion.w = q.w();
+  return quaternion;
+}
+
+geometry_msgs::Pose toPose(const rod::Pose& pose) {
+  geometry_msgs::Pose message;
+  message.position = toPoint(pose.position);
+  message.orientation = toQuaternion(pose.frame.normalized());
+  return message;
+}
+
+std_msgs::Header makeHeader(const Snapshot& snapshot, const std::string& frame) {
+  std_msgs::Header header;
+  header.stamp = snapshot.stamp;
+  header.frame_id = frame;
+  return header;
+}
+
+Relaxation toMessage(const simulation::OrganReport& report) {
+  Relaxation message;
+  message.reason = toConstant(report.relaxation.reason);
+  message.iterations = static_cast<std::uint32_t>(report.relaxation.iterations);
+  message.step_iterations = static_cast<std::uint32_t>(report.newton_iterations);
+  message.residual = report.relaxation.residual;
+  message.lowest_eigenvalue = report.relaxation.lowest_eigenvalue;
+  message.branch_switches = static_cast<std::uint32_t>(report.relaxation.branch_switches);
+  message.substeps = static_cast<std::uint32_t>(report.substeps);
+  message.retries = static_cast<std::uint32_t>(report.retries);
+  message.divisions = static_cast<std::uint32_t>(report.divisions);
+  return message;
+}
+
+OrganState toMessage(const OrganSnapshot& organ, const Snapshot& snapshot, const std::string& frame) {
+  const rod::Rod& rod = organ.rod;
+  OrganState message;
+  message.header = makeHeader(snapshot, frame);
+  message.organ = organ.id;
+  message.step_index = snapshot.step_index;
+  message.growth_time = snapshot.growth_time;
+
+  message.positions.reserve(rod.vertices.size());
+  for (const rod::Vertex& vertex : rod.vertices) message.positions.push_back(toPoint(vertex.position));
+
+  message.rest_arc_length.reserve(rod.vertices.size());
+  message.rest_arc_length.push_back(0.0);
+  for (const rod::Element& element : rod.elements) {
+    message.rest_arc_length.push_back(message.rest_arc_length.back() + element.rest_length);
+    message.frames.push_back(toQuaternion(element.frame));
+    message.radius.push_back(element.section.radius);
+    message.strain.push_back(toVector(element.strain));
+  }
+  message.growth_rate = organ.growth_rates;
+
+  for (const rod::Bend& bend : rod.bends) {
+    message.curvature.push_back(toVector(bend.curvature));
+    message.rest_curvature.push_back(toVector(bend.rest_curvature));
+  }
+
+  message.tip = toPose(rod.apex());
+  message.rest_length = rod.restLength();
+  message.length = rod.length();
+  message.bending_energy = organ.energy.bending;
+  message.stretching_energy = organ.energy.stretching;
+  message.load_energy = organ.energy.load;
+  message.relaxation = toMessage(organ.report);
+  return message;
+}
+
+Stimuli toStimuli(const Snapshot& snapshot, const std::string& frame) {
+  Stimuli message;
+  message.header = makeHeader(snapshot, frame);
+  message.step_index = snapshot.step_index;
+  for (const growth::PointSource& source : snapshot.environment.point_sources) {
+    PointSource& lamp = message.point_sources.emplace_back();
+    lamp.header = message.header;
+    lamp.operation = PointSource::ADD;
+    lamp.id = source.id;
+    lamp.position = toPoint(source.position);
+    lamp.strength = source.strength;
+  }
+  for (const growth::LightDirection& direction : snapshot.environment.light_directions) {
+    LightDirection& light = message.light_directions.emplace_back();
+    light.header = message.header;
+    light.operation = LightDirection::ADD;
+    light.id = direction.id;
+    light.towards = toVector(direction.towards);
+    light.strength = direction.strength;
+  }
+  return message;
+}
+
+AppliedStimulus toMessage(const simulation::AppliedStimulus& stimulus, const Snapshot& snapshot,
+                          const std::string& frame) {
+  AppliedStimulus message;
+  message.header = makeHeader(snapshot, frame);
+  message.step_index = stimulus.step;
+  message.kind = toConstant(stimulus.command.kind);
+  message.operation = toConstant(stimulus.command.operation);
+  message.id = stimulus.command.id;
+  message.vector = toVector(stimulus.command.vector);
+  message.strength = stimulus.command.strength;
+  message.accepted = stimulus.refusal.empty();
+  message.refusal = stimulus.refusal;
+  return message;
+}
+
+std::optional<StimulusCommand> toCommand(const PointSource& message) {
+  return makeCommand(StimulusKind::point_source, message.operation, message.id, toEigen(message.position),
+                     message.strength);
+}
+
+std::optional<StimulusCommand> toCommand(const LightDirection& message) {
+  return makeCommand(StimulusKind::light_direction, message.operation, message.id, toEigen(message.towards),
+                     message.strength);
+}
+
+StimulusCommand toCommand(const geometry_msgs::PointStamped& message) {
+  return {StimulusKind::point_source, StimulusOperation::add, names::kClickedLamp, toEigen(message.point), 1.0};
+}
+
+StimulusCommand toCommand(const geometry_msgs::Vector3Stamped& message) {
+  return {StimulusKind::light_direction, StimulusOperation::add, names::kSunLight, toEigen(message.vector), 1.0};
+}
+
+}  // namespace sensory_growth::node

@@ -1,0 +1,102 @@
+#include "sensory_growth/ros/diagnostics.h"
+
+#include <diagnostic_msgs/DiagnosticStatus.h>
+
+#include <utility>
+
+#include "sensory_growth/ros/clock.h"
+
+namespace sensory_growth::node {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+using diagnostic_updater::DiagnosticStatusWrapper;
+
+const char* describe(Mode mode) {
+  switch (mode) {
+    case Mode::paused:
+      return "paused";
+    case Mode::running:
+      return "running";
+    case Mode::finished:
+      return "finished";
+    case Mode::fault:
+      return "fault";
+  }
+  return "?";
+}
+
+void reportClock(DiagnosticStatusWrapper& status) {
+  const std::vector<std::string> others = otherClockPublishers();
+  if (others.empty()) return status.summary(DiagnosticStatus::OK, "this node alone publishes /clock");
+  status.summary(DiagnosticStatus::ERROR, "another node publishes /clock too");
+  for (const std::string& other : others) status.add("publisher", other);
+}
+
+}  // namespace
+
+void reportRelaxation(const OrganSnapshot& organ, DiagnosticStatusWrapper& status) {
+  const mechanics::RelaxationReport& relaxation = organ.report.relaxation;
+  if (!relaxation.ok()) {
+    status.summary(DiagnosticStatus::ERROR, mechanics::describe(relaxation));
+  } else if (organ.report.retries > 0 || relaxation.branch_switches > 0) {
+    status.summary(DiagnosticStatus::WARN, "in equilibrium, after help");
+  } else {
+    status.summary(DiagnosticStatus::OK, "in equilibrium");
+  }
+  status.add("reason", mechanics::name(relaxation.reason));
+  status.add("iterations", relaxation.iterations);
+  status.add("iterations of the step", organ.report.newton_iterations);
+  status.add("residual", relaxation.residual);
+  status.add("lowest eigenvalue [N m]", relaxation.lowest_eigenvalue);
+  status.add("branch switches", relaxation.branch_switches);
+  status.add("parts of the step", organ.report.substeps);
+  status.add("parts cut again", organ.report.retries);
+  status.add("elements", organ.rod.size());
+  status.add("rest length [m]", organ.rod.restLength());
+}
+
+void reportLoop(const LoopStatus& loop, const Snapshot& snapshot, DiagnosticStatusWrapper& status) {
+  const bool is_fault = loop.mode == Mode::fault;
+  const std::string mode = describe(loop.mode);
+  status.summary(is_fault ? DiagnosticStatus::ERROR : DiagnosticStatus::OK,
+                 loop.message.empty() ? mode : mode + ": " + loop.message);
+  status.add("step", snapshot.step_index);
+  status.add("epoch", snapshot.epoch);
+  status.add("growth time [s]", snapshot.growth_time);
+  status.add("achieved real time factor", loop.achieved_real_time_factor);
+  status.add("overruns", loop.overruns);
+}
+
+void reportStimuli(const StimulusCounters& counters, std::uint64_t refused_before, DiagnosticStatusWrapper& status) {
+  const std::uint64_t refused = counters.refused();
+  if (refused > refused_before) {
+    status.summaryf(DiagnosticStatus::WARN, "%lu refused lately", static_cast<unsigned long>(refused - refused_before));
+  } else {
+    status.summary(DiagnosticStatus::OK, "none refused lately");
+  }
+  for (const StimulusFate fate : kStimulusFates) status.add(name(fate), counters.of(fate));
+}
+
+Diagnostics::Diagnostics(ros::NodeHandle node, ros::NodeHandle private_node, Sources sources)
+    : sources_(std::move(sources)), updater_(std::move(node), std::move(private_node)) {
+  updater_.setHardwareID("none");
+  updater_.add("simulation",
+               [this](DiagnosticStatusWrapper& status) { reportLoop(sources_.loop(), *sources_.snapshot(), status); });
+  for (std::size_t i = 0; i < sources_.organs.size(); ++i) {
+    updater_.add("organ " + sources_.organs[i], [this, i](DiagnosticStatusWrapper& status) {
+      reportRelaxation(sources_.snapshot()->organs[i], status);
+    });
+  }
+  updater_.add("stimuli", [this](DiagnosticStatusWrapper& status) {
+    reportStimuli(*sources_.counters, refused_before_, status);
+    refused_before_ = sources_.counters->refused();
+  });
+  updater_.add("recording", [this](DiagnosticStatusWrapper& status) {
+    const std::string path = sources_.recording();
+    status.summary(DiagnosticStatus::OK, path.empty() ? "off" : "writing " + path);
+  });
+  if (sources_.owns_clock) updater_.add("clock", reportClock);
+}
+
+}  // namespace sensory_growth::node

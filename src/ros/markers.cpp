@@ -1,0 +1,297 @@
+#include "sensory_growth/ros/markers.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "sensory_growth/ros/conversions.h"
+#include "sensory_growth/ros/names.h"
+
+namespace sensory_growth::node {
+namespace {
+
+using visualization_msgs::Marker;
+using visualization_msgs::MarkerArray;
+
+constexpr std::size_t kSides = 10;       // of the tube
+constexpr std::size_t kMostRings = 129;  // bounds the size of a message, whatever the number of elements
+constexpr double kPi = 3.14159265358979323846;
+
+std_msgs::ColorRGBA color(float r, float g, float b, float a = 1.0F) {
+  std_msgs::ColorRGBA c;
+  c.r = r;
+  c.g = g;
+  c.b = b;
+  c.a = a;
+  return c;
+}
+
+const std_msgs::ColorRGBA kPlainOrgan = color(0.35F, 0.65F, 0.25F);
+const std_msgs::ColorRGBA kTip = color(0.85F, 0.90F, 0.40F);
+const std_msgs::ColorRGBA kAttracting = color(1.0F, 0.75F, 0.10F);
+const std_msgs::ColorRGBA kRepelling = color(0.35F, 0.45F, 0.95F);
+const std_msgs::ColorRGBA kLabel = color(0.95F, 0.95F, 0.95F);
+
+/// What is drawn at one vertex.
+struct Ring {
+  rod::Pose pose;
+  double radius = 0.0;  // [m]
+  double value = 0.0;   // of the field that is shown
+};
+
+rod::Pose poseAt(const rod::Rod& rod, std::size_t vertex) {
+  if (vertex == 0) return rod.base;
+  if (vertex == rod.size()) return rod.apex();
+  return {rod.vertices[vertex].position, rod.bendFrame(vertex)};
+}
+
+double fieldAt(const OrganSnapshot& organ, std::size_t vertex, MarkerField field) {
+  const rod::Rod& rod = organ.rod;
+  const std::size_t bend = std::min(vertex, rod.size() - 1);
+  const std::size_t below = vertex == 0 ? 0 : vertex - 1;
+  const std::size_t above = std::min(vertex, rod.size() - 1);
+  switch (field) {
+    case MarkerField::curvature:
+      return rod.bends[bend].curvature.head<2>().norm();
+    case MarkerField::growth_rate:
+      return 0.5 * (organ.growth_rates[below] + organ.growth_rates[above]);
+    case MarkerField::stretch:
+      return 0.5 * (std::abs(rod.elements[below].strain.z()) + std::abs(rod.elements[above].strain.z()));
+    case MarkerField::none:
+      break;
+  }
+  return 0.0;
+}
+
+std::vector<Ring> makeRings(const OrganSnapshot& organ, const MarkerSettings& settings) {
+  const rod::Rod& rod = organ.rod;
+  const std::size_t n = rod.size();
+  const std::size_t count = std::min(n + 1, kMostRings);
+  std::vector<Ring> rings;
+  rings.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t vertex = i * n / (count - 1);
+    const double radius = rod.elements[std::min(vertex, n - 1)].section.radius;
+    rings.push_back({poseAt(rod, vertex), settings.radius_scale * radius, fieldAt(organ, vertex, settings.field)});
+  }
+  return rings;
+}
+
+std::vector<std_msgs::ColorRGBA> ringColors(const std::vector<Ring>& rings, const MarkerSettings& settings) {
+  double limit = settings.color_limit;
+  if (limit == 0.0) {
+    for (const Ring& ring : rings) limit = std::max(limit, ring.value);
+  }
+  std::vector<std_msgs::ColorRGBA> colors;
+  colors.reserve(rings.size());
+  for (const Ring& ring : rings) {
+    const bool is_plain = settings.field == MarkerField::none;
+    colors.push_back(is_plain ? kPlainOrgan : viridis(limit > 0.0 ? ring.value / limit : 0.0));
+  }
+  return colors;
+}
+
+Marker makeMarker(const Snapshot& snapshot, const MarkerSettings& settings, const std::string& ns, int id, int type) {
+  Marker marker;
+  marker.header = makeHeader(snapshot, settings.frame);
+  marker.ns = ns;
+  marker.id = id;
+  marker.type = type;
+  marker.action = Marker::ADD;
+  marker.pose.orientation.w = 1.0;
+  marker.color = kPlainOrgan;
+  return marker;
+}
+
+void setScale(Marker& marker, double x, double y, double z) {
+  marker.scale.x = x;
+  marker.scale.y = y;
+  marker.scale.z = z;
+}
+
+void addTriangle(Marker& mesh, const std::array<geometry_msgs::Point, 3>& points,
+                 const std::array<std_msgs::ColorRGBA, 3>& colors) {
+  mesh.points.insert(mesh.points.end(), points.begin(), points.end());
+  mesh.colors.insert(mesh.colors.end(), colors.begin(), colors.end());
+}
+
+std::array<geometry_msgs::Point, kSides> corners(const Ring& ring) {
+  std::array<geometry_msgs::Point, kSides> points;
+  for (std::size_t k = 0; k < kSides; ++k) {
+    const double angle = 2.0 * kPi * static_cast<double>(k) / kSides;
+    const rod::Vector3 spoke(ring.radius * std::cos(angle), ring.radius * std::sin(angle), 0.0);
+    points[k] = toPoint(ring.pose.position + ring.pose.frame * spoke);
+  }
+  return points;
+}
+
+/// A closed tube through the rings. Seen from outside, every triangle turns counter-clockwise.
+Marker makeTube(Marker marker, const std::vector<Ring>& rings, const std::vector<std_msgs::ColorRGBA>& colors) {
+  setScale(marker, 1.0, 1.0, 1.0);
+  auto lower = corners(rings.front());
+  for (std::size_t k = 0; k < kSides; ++k) {
+    addTriangle(marker, {toPoint(rings.front().pose.position), lower[(k + 1) % kSides], lower[k]},
+                {colors.front(), colors.front(), colors.front()});
+  }
+  for (std::size_t i = 1; i < rings.size(); ++i) {
+    const auto upper = corners(rings[i]);
+    const std_msgs::ColorRGBA &below = colors[i - 1], &above = colors[i];
+    for (std::size_t k = 0; k < kSides; ++k) {
+      const std::size_t next = (k + 1) % kSides;
+      addTriangle(marker, {lower[k], lower[next], upper[next]}, {below, below, above});
+      addTriangle(marker, {lower[k], upper[next], upper[k]}, {below, above, above});
+    }
+    lower = upper;
+  }
+  for (std::size_t k = 0; k < kSides; ++k) {
+    addTriangle(marker, {toPoint(rings.back().pose.position), lower[k], lower[(k + 1) % kSides]},
+                {colors.back(), colors.back(), colors.back()});
+  }
+  return marker;
+}
+
+Marker makeLine(Marker marker, const std::vector<Ring>& rings, const std::vector<std_msgs::ColorRGBA>& colors) {
+  marker.scale.x = 2.0 * rings.front().radius;
+  for (const Ring& ring : rings) marker.points.push_back(toPoint(ring.pose.position));
+  marker.colors = colors;
+  return marker;
+}
+
+void addOrgan(const OrganSnapshot& organ, const Snapshot& snapshot, const MarkerSettings& settings,
+              MarkerArray& array) {
+  const std::vector<Ring> rings = makeRings(organ, settings);
+  const std::vector<std_msgs::ColorRGBA> colors = ringColors(rings, settings);
+  const std::string ns = organ.id + "/" + names::kBodyMarker;
+  if (settings.shape == MarkerShape::tube) {
+    array.markers.push_back(makeTube(makeMarker(snapshot, settings, ns, 0, Marker::TRIANGLE_LIST), rings, colors));
+  } else {
+    array.markers.push_back(makeLine(makeMarker(snapshot, settings, ns, 0, Marker::LINE_STRIP), rings, colors));
+  }
+
+  Marker tip = makeMarker(snapshot, settings, organ.id + "/" + names::kTipMarker, 0, Marker::SPHERE);
+  tip.pose = toPose(rings.back().pose);
+  const double diameter = 2.4 * rings.back().radius;  // a little more than the tube, so that it shows
+  setScale(tip, diameter, diameter, diameter);
+  tip.color = kTip;
+  array.markers.push_back(std::move(tip));
+}
+
+const std_msgs::ColorRGBA& colorOf(double strength) { return strength < 0.0 ? kRepelling : kAttracting; }
+
+Marker makeLabel(const Snapshot& snapshot, const MarkerSettings& settings, const std::string& ns,
+                 const std::string& text, const rod::Vector3& position) {
+  Marker label = makeMarker(snapshot, settings, ns, 1, Marker::TEXT_VIEW_FACING);
+  label.pose.position = toPoint(position);
+  label.scale.z = settings.lamp_diameter;
+  label.color = kLabel;
+  label.text = text;
+  return label;
+}
+
+void addLamp(const growth::PointSource& source, const Snapshot& snapshot, const MarkerSettings& settings,
+             MarkerArray& array) {
+  const std::string ns = std::string(names::kLampMarker) + "/" + source.id;
+  Marker lamp = makeMarker(snapshot, settings, ns, 0, Marker::SPHERE);
+  lamp.pose.position = toPoint(source.position);
+  setScale(lamp, settings.lamp_diameter, settings.lamp_diameter, settings.lamp_diameter);
+  lamp.color = colorOf(source.strength);
+  array.markers.push_back(std::move(lamp));
+  array.markers.push_back(makeLabel(snapshot, settings, ns, source.id,
+                                    source.position + 1.2 * settings.lamp_diameter * rod::Vector3::UnitZ()));
+}
+
+/// An arrow that comes with the light and ends before the tips.
+void addLight(const growth::LightDirection& light, const rod::Vector3& target, const Snapshot& snapshot,
+              const MarkerSettings& settings, MarkerArray& array) {
+  const std::string ns = std::string(names::kLightMarker) + "/" + light.id;
+  const rod::Vector3 tail = target + settings.scene_size * light.towards;
+  Marker arrow = makeMarker(snapshot, settings, ns, 0, Marker::ARROW);
+  arrow.points = {toPoint(tail), toPoint(target + 0.4 * settings.scene_size * light.towards)};
+  setScale(arrow, 0.3 * settings.lamp_diameter, 0.8 * settings.lamp_diameter, settings.lamp_diameter);
+  arrow.color = colorOf(light.strength);
+  array.markers.push_back(std::move(arrow));
+  array.markers.push_back(makeLabel(snapshot, settings, ns, light.id, tail));
+}
+
+rod::Vector3 meanTip(const Snapshot& snapshot) {
+  rod::Vector3 sum = rod::Vector3::Zero();
+  for (const OrganSnapshot& organ : snapshot.organs) sum += organ.rod.vertices.back().position;
+  return sum / static_cast<double>(std::max<std::size_t>(snapshot.organs.size(), 1));
+}
+
+}  // namespace
+
+MarkerSettings makeMarkerSettings(const Parameters& parameters, const Snapshot& first) {
+  double longest = 0.0;
+  for (const OrganSnapshot& organ : first.organs) longest = std::max(longest, organ.rod.restLength());
+  MarkerSettings settings;
+  settings.frame = parameters.world_frame;
+  settings.shape = parameters.marker_style;
+  settings.field = parameters.marker_color;
+  settings.color_limit = parameters.marker_color_limit;
+  settings.radius_scale = parameters.marker_radius_scale;
+  settings.lamp_diameter = parameters.marker_lamp_diameter > 0.0 ? parameters.marker_lamp_diameter : 0.2 * longest;
+  settings.scene_size = longest;
+  return settings;
+}
+
+MarkerArray buildMarkers(const Snapshot& snapshot, const MarkerSettings& settings) {
+  MarkerArray array;
+  for (const OrganSnapshot& organ : snapshot.organs) addOrgan(organ, snapshot, settings, array);
+  for (const growth::PointSource& source : snapshot.environment.point_sources) {
+    addLamp(source, snapshot, settings, array);
+  }
+  const rod::Vector3 target = meanTip(snapshot);
+  for (const growth::LightDirection& light : snapshot.environment.light_directions) {
+    addLight(light, target, snapshot, settings, array);
+  }
+  return array;
+}
+
+MarkerArray MarkerStream::next(const Snapshot& snapshot) {
+  MarkerArray built = buildMarkers(snapshot, settings_);
+  std::set<std::pair<std::string, int>> drawn;
+  for (const Marker& marker : built.markers) drawn.emplace(marker.ns, marker.id);
+
+  MarkerArray array;
+  if (epoch_ != snapshot.epoch) {
+    Marker& all = array.markers.emplace_back();
+    all.header = makeHeader(snapshot, settings_.frame);
+    all.action = Marker::DELETEALL;
+    all.pose.orientation.w = 1.0;
+  } else {
+    for (const auto& [ns, id] : drawn_) {
+      if (drawn.count({ns, id})) continue;
+      array.markers.push_back(makeMarker(snapshot, settings_, ns, id, Marker::SPHERE));
+      array.markers.back().action = Marker::DELETE;
+    }
+  }
+  std::move(built.markers.begin(), built.markers.end(), std::back_inserter(array.markers));
+  epoch_ = snapshot.epoch;
+  drawn_ = std::move(drawn);
+  return array;
+}
+
+std_msgs::ColorRGBA viridis(double x) {
+  // Nine evenly spaced colours of matplotlib's viridis (van der Walt and Smith 2015).
+  static constexpr std::array<std::array<double, 3>, 9> kColors = {{{0.267, 0.005, 0.329},
+                                                                    {0.279, 0.175, 0.483},
+                                                                    {0.230, 0.322, 0.546},
+                                                                    {0.173, 0.449, 0.558},
+                                                                    {0.128, 0.567, 0.551},
+                                                                    {0.158, 0.684, 0.502},
+                                                                    {0.369, 0.789, 0.383},
+                                                                    {0.678, 0.864, 0.190},
+                                                                    {0.993, 0.906, 0.144}}};
+  const double position = std::clamp(x, 0.0, 1.0) * (kColors.size() - 1);
+  const std::size_t i = std::min<std::size_t>(static_cast<std::size_t>(position), kColors.size() - 2);
+  const double f = position - static_cast<double>(i);
+  const auto channel = [&](std::size_t c) {
+    return static_cast<float>((1.0 - f) * kColors[i][c] + f * kColors[i + 1][c]);
+  };
+  return color(channel(0), channel(1), channel(2));
+}
+
+}  // namespace sensory_growth::node

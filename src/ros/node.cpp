@@ -1,0 +1,263 @@
+#include "sensory_growth/ros/node.h"
+
+#include <ros/advertise_service_options.h>
+#include <ros/console.h>
+#include <ros/init.h>
+#include <ros/master.h>
+#include <ros/this_node.h>
+
+#include <algorithm>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "sensory_growth/ros/names.h"
+#include "sensory_growth/simulation/scenario_yaml.h"
+
+namespace sensory_growth::node {
+namespace {
+
+constexpr double kLongestStep = 1.0;      // of ROS time [s]; tf and timers cannot use a coarser clock (ros.md 33)
+constexpr double kShortestStep = 1.0e-6;  // [s]; stamps count nanoseconds
+constexpr std::chrono::milliseconds kSignalPatience{50};
+
+std::string readFile(const std::string& path, const std::string& parameter, std::vector<std::string>& problems) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  if (!file.good() && !file.eof()) problems.push_back("~" + parameter + " is '" + path + "', which cannot be read");
+  return text;
+}
+
+/// Runs `read` and keeps what it throws as a problem.
+template <typename Read>
+void collect(std::vector<std::string>& problems, const Read& read) {
+  try {
+    read();
+  } catch (const std::exception& error) {
+    problems.push_back(error.what());
+  }
+}
+
+void checkStep(const Parameters& parameters, const simulation::Scenario& scenario, std::vector<std::string>& problems) {
+  if (parameters.growth_time_scale <= 0.0) return;  // reported already
+  const double step = scenario.stepping.step / parameters.growth_time_scale;
+  if (step <= kLongestStep && step >= kShortestStep) return;
+  std::ostringstream text;
+  text << "~growth_time_scale is " << parameters.growth_time_scale << ", so a step of " << scenario.stepping.step
+       << " s of growth takes " << step << " s of ROS time; it must be from " << kShortestStep << " to " << kLongestStep
+       << " s, which asks for a scale from " << scenario.stepping.step / kLongestStep << " to "
+       << scenario.stepping.step / kShortestStep;
+  problems.push_back(text.str());
+}
+
+std::string describeEffective(const Parameters& parameters) {
+  return "node: " + ros::this_node::getName() + "\nversion: " + SENSORY_GROWTH_VERSION + "\n" + toYaml(parameters);
+}
+
+template <typename Response>
+void fill(const Answer& answer, Response& response) {
+  response.success = answer.success;
+  response.message = answer.message;
+  response.step_index = answer.step_index;
+  response.stamp = answer.stamp;
+}
+
+template <typename Service, typename Handler>
+ros::ServiceServer serve(ros::NodeHandle& node, const char* name, ros::CallbackQueue& queue, const Handler& handler) {
+  using Request = typename Service::Request;
+  using Response = typename Service::Response;
+  ros::AdvertiseServiceOptions options;
+  options.init<Request, Response>(node.resolveName(name), [handler](Request& request, Response& response) {
+    handler(request, response);
+    return true;  // false would hide the reason from the caller
+  });
+  options.callback_queue = &queue;
+  return node.advertiseService(options);
+}
+
+int complain(const std::vector<std::string>& problems) {
+  for (const std::string& problem : problems) ROS_FATAL_STREAM_NAMED(names::kLogRos, problem);
+  return 1;
+}
+
+}  // namespace
+
+LoadedScenario loadScenario(const Parameters& parameters, std::vector<std::string>& problems) {
+  LoadedScenario loaded;
+  Sources& sources = loaded.sources;
+  const std::size_t problems_before = problems.size();
+  sources.scenario = readFile(parameters.scenario, "scenario", problems);
+  if (!parameters.protocol.empty()) sources.protocol = readFile(parameters.protocol, "protocol", problems);
+  if (problems.size() > problems_before) return loaded;
+
+  collect(problems, [&] {
+    loaded.scenario = simulation::parseScenario(sources.scenario, parameters.scenario);
+    checkStep(parameters, loaded.scenario, problems);
+  });
+  collect(problems, [&] {
+    if (parameters.protocol.empty()) return;
+    auto& protocol = loaded.scenario.protocol;
+    for (auto& stimulus : simulation::loadProtocol(parameters.protocol)) protocol.push_back(std::move(stimulus));
+    std::stable_sort(protocol.begin(), protocol.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
+  });
+
+  sources.scenario_name = loaded.scenario.name;
+  sources.parameters = describeEffective(parameters);
+  for (const simulation::OrganScenario& organ : loaded.scenario.organs) sources.organs.push_back(organ.id);
+  return loaded;
+}
+
+Node::Node(const Parameters& parameters, LoadedScenario loaded)
+    : parameters_(parameters),
+      duration_(loaded.scenario.duration),
+      step_(loaded.scenario.stepping.step / parameters.growth_time_scale),
+      private_node_("~"),
+      clock_(parameters.clock_mode, step_, parameters.clock_rate, node_),
+      publishers_(parameters, loaded.sources, counters_, private_node_),
+      loop_(simulation::Simulation(std::move(loaded.scenario)),
+            {step_, parameters.real_time_factor, parameters.start_paused}, clock_, counters_, publishers_),
+      topic_spinner_(1),
+      control_spinner_(1, &control_queue_),
+      step_spinner_(1, &step_queue_) {
+  if (!parameters_.recording_directory.empty()) {
+    std::filesystem::create_directories(parameters_.recording_directory);
+  }
+  if (parameters_.record) {
+    if (const auto refusal = publishers_.startRecording("", *loop_.snapshot())) throw std::runtime_error(*refusal);
+    ROS_INFO_STREAM_NAMED(names::kLogRecording, "recording " << publishers_.recordingPath());
+  }
+  const auto send = [this](const simulation::StimulusCommand& command) { return loop_.send(command); };
+  const auto refused = [this] { loop_.refreshStatus(); };
+  intake_ = std::make_unique<StimulusIntake>(node_, private_node_, parameters_.world_frame, counters_,
+                                             StimulusIntake::Outputs{send, refused});
+  diagnostics_ = std::make_unique<Diagnostics>(
+      node_, private_node_,
+      Diagnostics::Sources{[this] { return loop_.snapshot(); }, [this] { return loop_.status(); },
+                           [this] { return publishers_.recordingPath(); }, loaded.sources.organs, &counters_,
+                           parameters_.clock_mode == ClockMode::publish});
+}
+
+Node::~Node() {
+  loop_.stop();  // first, because it wakes the services that wait
+  topic_spinner_.stop();
+  control_spinner_.stop();
+  step_spinner_.stop();
+  if (const auto recording = publishers_.takeRecording()) {
+    const RecordingSummary summary = recording->finish();
+    ROS_INFO_STREAM_NAMED(names::kLogRecording, "closed " << summary.path << ": " << summary.messages << " messages");
+  }
+}
+
+int Node::run(const Signals& signals) {
+  advertiseServices();
+  startTimers();
+  loop_.start();
+  topic_spinner_.start();
+  control_spinner_.start();
+  step_spinner_.start();
+  while (ros::ok() && !signals.wait(kSignalPatience)) {
+    const LoopStatus status = loop_.status();
+    if (!parameters_.exit_when_finished) continue;
+    if (status.mode == Mode::finished) break;
+    if (status.mode == Mode::fault) {
+      ROS_FATAL_STREAM_NAMED(names::kLogSimulation, status.message);
+      return 1;
+    }
+  }
+  if (parameters_.progress) logProgress();
+  return 0;
+}
+
+void Node::advertiseServices() {
+  const auto control = [this](const char* name, auto action) {
+    services_.push_back(serve<sensory_growth::Command>(
+        private_node_, name, control_queue_,
+        [action](auto&, sensory_growth::Command::Response& response) { fill(action(), response); }));
+  };
+  control(names::kPause, [this] { return loop_.pause(); });
+  control(names::kResume, [this] { return loop_.resume(); });
+  control(names::kReset, [this] { return loop_.reset(); });
+  services_.push_back(serve<StartRecording>(private_node_, names::kStartRecording, control_queue_,
+                                            [this](auto& q, auto& r) { startRecording(q, r); }));
+  services_.push_back(serve<StopRecording>(private_node_, names::kStopRecording, control_queue_,
+                                           [this](auto&, auto& r) { stopRecording(r); }));
+  services_.push_back(serve<Step>(private_node_, names::kStep, step_queue_,
+                                  [this](auto& q, auto& r) { fill(loop_.step(q.steps), r); }));
+}
+
+void Node::startRecording(const StartRecording::Request& request, StartRecording::Response& response) {
+  const Answer answer = loop_.atBoundary([&](const Snapshot& snapshot) {
+    const auto refusal = publishers_.startRecording(request.file, snapshot);
+    response.path = publishers_.recordingPath();
+    return refusal;
+  });
+  fill(answer, response);
+  if (answer.success) response.message = "recording";
+}
+
+void Node::stopRecording(StopRecording::Response& response) {
+  std::unique_ptr<Recording> recording;
+  fill(loop_.atBoundary([&](const Snapshot&) -> std::optional<std::string> {
+    recording = publishers_.takeRecording();
+    if (!recording) return "nothing is being recorded";
+    return std::nullopt;
+  }),
+       response);
+  if (!recording) return;
+  const RecordingSummary summary = recording->finish();  // here, so that the simulation need not wait for the disk
+  response.path = summary.path;
+  response.messages = summary.messages;
+  response.success = summary.error.empty();
+  response.message = summary.error.empty() ? "closed" : summary.error;
+}
+
+void Node::startTimers() {
+  const auto every = [this](double interval, auto action) {
+    timers_.push_back(
+        node_.createWallTimer(ros::WallDuration(interval), [action](const ros::WallTimerEvent&) { action(); }));
+  };
+  every(1.0 / parameters_.marker_rate, [this] { publishers_.showMarkers(loop_.snapshot()); });
+  every(0.1, [this] { clock_.keepAlive(); });
+  every(1.0, [this] { diagnostics_->update(); });
+  if (parameters_.progress) every(1.0, [this] { logProgress(); });
+}
+
+void Node::logProgress() const {
+  constexpr double kHour = 3600.0;
+  const SnapshotPtr snapshot = loop_.snapshot();
+  std::ostringstream text;
+  text.precision(3);
+  text << "step " << snapshot->step_index << ", " << snapshot->growth_time / kHour << " h";
+  if (duration_ > 0.0) {
+    text << " of " << duration_ / kHour << " h (" << 100.0 * std::min(snapshot->growth_time / duration_, 1.0) << " %)";
+  }
+  text << ", " << loop_.status().achieved_real_time_factor * parameters_.growth_time_scale
+       << " x faster than the organ grows";
+  ROS_INFO_STREAM_NAMED(names::kLogSimulation, text.str());
+}
+
+int runNode(const Signals& signals) {
+  if (!ros::master::check()) {
+    return complain({"no ROS master at " + ros::master::getURI() + "; start one with roscore or roslaunch"});
+  }
+  const ros::NodeHandle private_node("~");
+  ParameterReading reading = loadParameters(private_node);
+  LoadedScenario loaded;
+  if (!reading.parameters.scenario.empty()) loaded = loadScenario(reading.parameters, reading.problems);
+  for (std::string& problem : findClockProblems(reading.parameters.clock_mode)) {
+    reading.problems.push_back(std::move(problem));
+  }
+  if (!reading.problems.empty()) return complain(reading.problems);
+  ROS_INFO_STREAM_NAMED(names::kLogRos, "effective parameters:\n" << loaded.sources.parameters);
+  try {
+    return Node(reading.parameters, std::move(loaded)).run(signals);
+  } catch (const std::exception& error) {
+    return complain({error.what()});
+  }
+}
+
+}  // namespace sensory_growth::node

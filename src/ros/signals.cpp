@@ -1,0 +1,21 @@
+#include "sensory_growth/ros/signals.h"
+
+#include <ctime>
+
+namespace sensory_growth::node {
+
+Signals::Signals() {
+  sigemptyset(&set_);
+  sigaddset(&set_, SIGINT);
+  sigaddset(&set_, SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &set_, nullptr);
+}
+
+bool Signals::wait(std::chrono::milliseconds patience) const {
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(patience);
+  const auto rest = std::chrono::duration_cast<std::chrono::nanoseconds>(patience - seconds);
+  const timespec timeout{static_cast<std::time_t>(seconds.count()), static_cast<long>(rest.count())};
+  return sigtimedwait(&set_, nullptr, &timeout) > 0;
+}
+
+}  // namespace sensory_growth::node

@@ -1,0 +1,258 @@
+#include "sensory_growth/ros/simulation_loop.h"
+
+#include <chrono>
+#include <exception>
+#include <utility>
+#include <vector>
+
+namespace sensory_growth::node {
+namespace {
+
+constexpr std::size_t kMostStimuliWaiting = 256;
+
+simulation::StepReport stepGuarded(simulation::Simulation& simulation) {
+  try {
+    return simulation.step();
+  } catch (const std::exception& error) {
+    return {false, error.what()};
+  }
+}
+
+std::string count(std::uint32_t steps) { return std::to_string(steps) + (steps == 1 ? " step" : " steps"); }
+
+}  // namespace
+
+SimulationLoop::SimulationLoop(simulation::Simulation simulation, const Settings& settings, Clock& clock,
+                               StimulusCounters& counters, LoopListener& listener)
+    : simulation_(std::move(simulation)),
+      clock_(clock),
+      counters_(counters),
+      listener_(listener),
+      pacer_(settings.step, settings.real_time_factor),
+      mode_(settings.start_paused ? Mode::paused : Mode::running),
+      queue_(kMostStimuliWaiting) {
+  showFirstState();
+}
+
+SimulationLoop::~SimulationLoop() { stop(); }
+
+void SimulationLoop::start() {
+  pacer_.start(std::chrono::steady_clock::now());
+  showStatus();
+  clock_.flush();
+  thread_ = std::thread([this] { run(); });
+}
+
+void SimulationLoop::stop() {
+  queue_.close();
+  if (thread_.joinable()) thread_.join();
+  step_request_.reset();
+}
+
+Answer SimulationLoop::pause() {
+  return ask([this](const Reply& reply) { pauseNow(reply); });
+}
+
+Answer SimulationLoop::resume() {
+  return ask([this](const Reply& reply) { resumeNow(reply); });
+}
+
+Answer SimulationLoop::reset() {
+  return ask([this](const Reply& reply) { resetNow(reply); });
+}
+
+Answer SimulationLoop::step(std::uint32_t steps) {
+  return ask([this, steps](const Reply& reply) { stepNow(reply, steps); });
+}
+
+Answer SimulationLoop::atBoundary(const std::function<std::optional<std::string>(const Snapshot&)>& action) {
+  return ask([this, action](const Reply& reply) {
+    const std::optional<std::string> failure = action(*snapshot_);
+    showStatus();
+    reply->set_value(answer(!failure, failure.value_or("")));
+  });
+}
+
+void SimulationLoop::refreshStatus() {
+  if (refresh_waits_.exchange(true)) return;
+  queue_.push(Control([this] {
+    refresh_waits_ = false;
+    showStatus();
+  }));
+}
+
+SnapshotPtr SimulationLoop::snapshot() const {
+  const std::lock_guard<std::mutex> lock(shown_mutex_);
+  return snapshot_;
+}
+
+LoopStatus SimulationLoop::status() const {
+  const std::lock_guard<std::mutex> lock(shown_mutex_);
+  return status_;
+}
+
+Answer SimulationLoop::ask(const std::function<void(const Reply&)>& request) {
+  auto reply = std::make_shared<std::promise<Answer>>();
+  std::future<Answer> future = reply->get_future();
+  // The queue must hold the only reference: when it drops the request, the promise breaks and the caller wakes up.
+  queue_.push(Control([request, reply = std::move(reply)] { request(reply); }));
+  try {
+    return future.get();
+  } catch (const std::future_error&) {
+    return {false, "the node is shutting down", 0, {}};
+  }
+}
+
+Answer SimulationLoop::answer(bool success, const std::string& message) {
+  clock_.flush();
+  return {success, message, snapshot_->step_index, snapshot_->stamp};
+}
+
+void SimulationLoop::run() {
+  while (!queue_.isClosed()) {
+    for (const Command& command : queue_.take()) execute(command);
+    if (!wantsStep()) {
+      queue_.wait();
+      continue;
+    }
+    const bool is_paced = !step_request_;
+    const auto now = std::chrono::steady_clock::now();
+    if (is_paced && pacer_.due() && now < *pacer_.due()) {
+      queue_.waitUntil(*pacer_.due());
+      continue;  // what woke the thread comes first; then it is seen again whether the step is due
+    }
+    advance();
+  }
+}
+
+void SimulationLoop::execute(const Command& command) {
+  if (const auto* stimulus = std::get_if<simulation::StimulusCommand>(&command)) {
+    applyNow(*stimulus);
+  } else {
+    std::get<Control>(command)();
+  }
+}
+
+void SimulationLoop::pauseNow(const Reply& reply) {
+  abortSteps("pause");
+  if (mode_ == Mode::running) setMode(Mode::paused);
+  reply->set_value(answer(true, mode_ == Mode::paused ? "paused" : "was not running: " + message_));
+}
+
+void SimulationLoop::resumeNow(const Reply& reply) {
+  if (step_request_) return reply->set_value(answer(false, "a step is under way; pause aborts it"));
+  if (mode_ == Mode::finished || mode_ == Mode::fault) {
+    return reply->set_value(answer(false, "reset first: " + message_));
+  }
+  if (mode_ == Mode::paused) {
+    setMode(Mode::running);
+    pacer_.start(std::chrono::steady_clock::now());
+  }
+  reply->set_value(answer(true, "running"));
+}
+
+void SimulationLoop::resetNow(const Reply& reply) {
+  abortSteps("reset");
+  simulation_.reset();
+  ++epoch_;
+  showFirstState();
+  setMode(mode_ == Mode::running ? Mode::running : Mode::paused);
+  pacer_.start(std::chrono::steady_clock::now());
+  reply->set_value(answer(true, "back at step 0"));
+}
+
+void SimulationLoop::stepNow(const Reply& reply, std::uint32_t steps) {
+  const auto refuse = [&](const std::string& why) { reply->set_value(answer(false, why)); };
+  if (steps == 0) return refuse("steps is 0; it must be from 1 to " + std::to_string(kMostSteps));
+  if (steps > kMostSteps) {
+    return refuse("steps is " + std::to_string(steps) + "; it must be from 1 to " + std::to_string(kMostSteps));
+  }
+  if (mode_ == Mode::running) return refuse("the simulation is running; pause it first");
+  if (mode_ == Mode::fault) return refuse("reset first: " + message_);
+  if (step_request_) return refuse("another step is under way");
+  step_request_ = StepRequest{steps, 0, reply};
+}
+
+void SimulationLoop::applyNow(const simulation::StimulusCommand& stimulus) {
+  simulation_.apply(stimulus);
+  showApplied();
+  setSnapshot(snapshot_->stamp);
+  listener_.onStimuli(*snapshot_);
+  showStatus();
+}
+
+void SimulationLoop::advance() {
+  const bool is_paced = !step_request_;
+  if (is_paced) pacer_.stepBegins(std::chrono::steady_clock::now());
+  const simulation::StepReport report = stepGuarded(simulation_);
+  const bool stimuli_changed = showApplied();  // taken while the state before this step was current
+  if (!report.ok) {
+    setSnapshot(snapshot_->stamp);  // the last good state, with the report of what went wrong
+    setMode(Mode::fault, report.message);
+    abortSteps("a fault: " + report.message);
+    return;
+  }
+  setSnapshot(clock_.tick());
+  listener_.onState(snapshot_);
+  if (stimuli_changed) listener_.onStimuli(*snapshot_);
+  if (is_paced) pacer_.stepEnded(std::chrono::steady_clock::now());
+  if (simulation_.finished() && mode_ != Mode::finished) {
+    setMode(Mode::finished, "the duration of the scenario is reached");
+  } else {
+    showStatus();
+  }
+  if (step_request_ && ++step_request_->done == step_request_->asked) {
+    const StepRequest request = *std::exchange(step_request_, std::nullopt);
+    request.reply->set_value(answer(true, "took " + count(request.done)));
+  }
+}
+
+void SimulationLoop::abortSteps(const std::string& why) {
+  if (!step_request_) return;
+  const StepRequest request = *std::exchange(step_request_, std::nullopt);
+  request.reply->set_value(
+      answer(false, "aborted by " + why + " after " + std::to_string(request.done) + " of " + count(request.asked)));
+}
+
+void SimulationLoop::setMode(Mode mode, const std::string& message) {
+  if (mode_ == Mode::running && mode != Mode::running) {
+    pacer_.stop(std::chrono::steady_clock::now());
+    clock_.flush();
+  }
+  mode_ = mode;
+  message_ = message;
+  showStatus();
+}
+
+void SimulationLoop::showFirstState() {
+  setSnapshot(clock_.tick());
+  listener_.onState(snapshot_);
+  showApplied();
+  listener_.onStimuli(*snapshot_);
+}
+
+void SimulationLoop::setSnapshot(const ros::Time& stamp) {
+  SnapshotPtr snapshot = takeSnapshot(simulation_, stamp, epoch_);
+  const std::lock_guard<std::mutex> lock(shown_mutex_);
+  snapshot_ = std::move(snapshot);
+}
+
+bool SimulationLoop::showApplied() {
+  const std::vector<simulation::AppliedStimulus> applied = simulation_.takeApplied();
+  for (const simulation::AppliedStimulus& stimulus : applied) {
+    counters_.count(stimulus.refusal.empty() ? StimulusFate::accepted : StimulusFate::not_applicable);
+    listener_.onStimulus(stimulus, *snapshot_);
+  }
+  return !applied.empty();
+}
+
+void SimulationLoop::showStatus() {
+  const LoopStatus status{mode_, message_, pacer_.achievedFactor(), pacer_.overruns()};
+  {
+    const std::lock_guard<std::mutex> lock(shown_mutex_);
+    status_ = status;
+  }
+  listener_.onStatus(status, *snapshot_);
+}
+
+}  // namespace sensory_growth::node

@@ -1,0 +1,19 @@
+#include "sensory_growth/ros/snapshot.h"
+
+namespace sensory_growth::node {
+
+SnapshotPtr takeSnapshot(const simulation::Simulation& simulation, const ros::Time& stamp, std::uint32_t epoch) {
+  auto snapshot = std::make_shared<Snapshot>();
+  snapshot->stamp = stamp;
+  snapshot->step_index = simulation.stepIndex();
+  snapshot->epoch = epoch;
+  snapshot->growth_time = simulation.time();
+  snapshot->environment = simulation.environment();
+  snapshot->organs.reserve(simulation.organs().size());
+  for (const simulation::Organ& organ : simulation.organs()) {
+    snapshot->organs.push_back({organ.scenario().id, organ.rod(), organ.growthRates(), organ.energy(), organ.report()});
+  }
+  return snapshot;
+}
+
+}  // namespace sensory_growth::node
