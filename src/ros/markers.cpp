@@ -184,7 +184,7 @@ Marker makeLabel(const Snapshot& snapshot, const MarkerSettings& settings, const
                  const std::string& text, const rod::Vector3& position) {
   Marker label = makeMarker(snapshot, settings, ns, 1, Marker::TEXT_VIEW_FACING);
   label.pose.position = toPoint(position);
-  label.scale.z = settings.lamp_diameter;
+  label.scale.z = 0.8 * settings.lamp_diameter;
   label.color = kLabel;
   label.text = text;
   return label;
@@ -232,7 +232,7 @@ MarkerSettings makeMarkerSettings(const Parameters& parameters, const Snapshot& 
   settings.field = parameters.marker_color;
   settings.color_limit = parameters.marker_color_limit;
   settings.radius_scale = parameters.marker_radius_scale;
-  settings.lamp_diameter = parameters.marker_lamp_diameter > 0.0 ? parameters.marker_lamp_diameter : 0.2 * longest;
+  settings.lamp_diameter = parameters.marker_lamp_diameter > 0.0 ? parameters.marker_lamp_diameter : 0.15 * longest;
   settings.scene_size = longest;
   return settings;
 }

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <initializer_list>
 #include <limits>
-#include <numeric>
-#include <set>
 #include <sstream>
 #include <utility>
+
+#include "sensory_growth/simulation/spelling.h"
 
 namespace sensory_growth::node {
 namespace {
@@ -73,21 +73,6 @@ std::string shown(XmlRpc::XmlRpcValue value) {
   return text.str();
 }
 
-/// Levenshtein distance.
-std::size_t distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i + 1);
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
-    }
-  }
-  return row.back();
-}
-
 class Reader {
  public:
   explicit Reader(XmlRpc::XmlRpcValue tree) : tree_(std::move(tree)) {}
@@ -143,11 +128,9 @@ class Reader {
   void refuseUnknownKeys() {
     for (const auto& entry : tree_) {
       const std::string& key = entry.first;
-      if (known_.count(key)) continue;
-      const auto nearest = std::min_element(known_.begin(), known_.end(), [&](const auto& a, const auto& b) {
-        return distance(a, key) < distance(b, key);
-      });
-      problem(key, "is not a parameter of this node; the nearest is ~" + *nearest);
+      if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
+      const std::string* meant = simulation::nearestName(key, known_);
+      problem(key, "is not a parameter of this node" + (meant ? "; did you mean ~" + *meant + "?" : std::string()));
     }
   }
 
@@ -155,7 +138,7 @@ class Reader {
 
  private:
   bool find(const std::string& key, Need need) {
-    known_.insert(key);
+    known_.push_back(key);
     if (tree_.hasMember(key)) return true;
     if (need == Need::required) problem(key, "is required and was not given");
     return false;
@@ -175,7 +158,7 @@ class Reader {
   }
 
   XmlRpc::XmlRpcValue tree_;
-  std::set<std::string> known_;
+  std::vector<std::string> known_;
   std::vector<std::string> problems_;
 };
 

@@ -49,7 +49,7 @@ std::string recordingPath(const std::string& directory, const std::string& file)
                                 "'; it must be a name of letters, digits, '_', '-' and '.', without a directory");
   }
   if (!endsWith(file, kExtension)) throw std::invalid_argument("file is '" + file + "'; it must end in .bag");
-  const std::string path = (std::filesystem::path(directory) / file).string();
+  const std::string path = (std::filesystem::absolute(directory) / file).string();
   for (const std::string& taken : {path, path + kActive}) {
     if (std::filesystem::exists(taken)) throw std::invalid_argument(taken + " exists already");
   }

@@ -16,11 +16,11 @@ namespace {
 
 using rod::Vector3;
 
-constexpr auto required = Presence::required;
-constexpr auto optional = Presence::optional;
+constexpr auto kRequired = Presence::required;
+constexpr auto kOptional = Presence::optional;
 
-constexpr int most_elements = 100000;
-constexpr double pi = 3.14159265358979323846;
+constexpr int kMostElements = 100000;
+constexpr double kPi = 3.14159265358979323846;
 
 /// Where each id was first given, to refuse a second one.
 using IdLines = std::map<std::string, int>;
@@ -41,7 +41,7 @@ rod::Quaternion frameAlong(const Vector3& d3, double roll) {
   if (axis.norm() > 0.0) {
     tilt = Eigen::AngleAxisd(std::atan2(axis.norm(), d3.z()), axis.stableNormalized());
   } else if (d3.z() < 0.0) {
-    tilt = Eigen::AngleAxisd(pi, Vector3::UnitX());
+    tilt = Eigen::AngleAxisd(kPi, Vector3::UnitX());
   }
   return (tilt * Eigen::AngleAxisd(roll, Vector3::UnitZ())).normalized();
 }
@@ -63,7 +63,7 @@ void readLimits(YamlReader& in, StepLimits& limits) {
 void readStepping(YamlReader& in, Stepping& stepping) {
   stepping.step = in.quantity("step", dimension::time, above(0));
   stepping.second_order = in.flag("second_order", stepping.second_order);
-  in.section("limits", optional, [&](YamlReader& limits) { readLimits(limits, stepping.limits); });
+  in.section("limits", kOptional, [&](YamlReader& limits) { readLimits(limits, stepping.limits); });
 }
 
 void readRelaxation(YamlReader& in, Scenario& scenario) {
@@ -78,9 +78,9 @@ void readRelaxation(YamlReader& in, Scenario& scenario) {
   settings.tolerance = in.number("tolerance", above(0).below(1), settings.tolerance);
   settings.max_iterations = in.count("max_iterations", 1, 1000000, settings.max_iterations);
   settings.max_branch_switches = in.count("max_branch_switches", 0, 1000, settings.max_branch_switches);
-  settings.max_rotation = in.quantity("max_rotation", dimension::angle, above(0).upTo(pi), settings.max_rotation);
+  settings.max_rotation = in.quantity("max_rotation", dimension::angle, above(0).upTo(kPi), settings.max_rotation);
   settings.max_bend_angle =
-      in.quantity("max_bend_angle", dimension::angle, above(0).below(pi), settings.max_bend_angle);
+      in.quantity("max_bend_angle", dimension::angle, above(0).below(kPi), settings.max_bend_angle);
 }
 
 void readBase(YamlReader& in, rod::Pose& base) {
@@ -135,8 +135,8 @@ void readSensitivities(YamlReader& in, growth::Sensitivities& sensitivities) {
 
 void readDivision(YamlReader& in, RelaxationMethod relaxation, OrganScenario& organ) {
   organ.longest_element = in.quantity("longest_element", dimension::length, above(0).orInfinity());
-  if (organ.length / organ.longest_element > most_elements) {
-    in.addProblem("longest_element", "would divide the organ into more than " + std::to_string(most_elements) +
+  if (organ.length / organ.longest_element > kMostElements) {
+    in.addProblem("longest_element", "would divide the organ into more than " + std::to_string(kMostElements) +
                                          " elements; give a longer one");
   }
   const auto mode = in.choice<rod::DivisionMode>(
@@ -154,16 +154,16 @@ void readDivision(YamlReader& in, RelaxationMethod relaxation, OrganScenario& or
 OrganScenario readOrgan(YamlReader& in, RelaxationMethod relaxation, IdLines& ids) {
   OrganScenario organ;
   organ.id = readId(in, ids);
-  in.section("base", required, [&](YamlReader& base) { readBase(base, organ.base); });
+  in.section("base", kRequired, [&](YamlReader& base) { readBase(base, organ.base); });
   organ.length = in.quantity("length", dimension::length, above(0));
-  organ.elements = static_cast<std::size_t>(in.count("elements", 1, most_elements));
+  organ.elements = static_cast<std::size_t>(in.count("elements", 1, kMostElements));
   organ.section.radius = in.quantity("radius", dimension::length, above(0));
-  in.section("material", required, [&](YamlReader& material) { readMaterial(material, organ.section); });
-  in.section("growth", required, [&](YamlReader& growth) { readGrowth(growth, organ); });
-  in.section("sensitivities", required,
+  in.section("material", kRequired, [&](YamlReader& material) { readMaterial(material, organ.section); });
+  in.section("growth", kRequired, [&](YamlReader& growth) { readGrowth(growth, organ); });
+  in.section("sensitivities", kRequired,
              [&](YamlReader& sensitivities) { readSensitivities(sensitivities, organ.bending.sensitivities); });
   organ.bending.proprioception_length = in.quantity("proprioception_length", dimension::length, atLeast(0));
-  in.section("division", required, [&](YamlReader& division) { readDivision(division, relaxation, organ); });
+  in.section("division", kRequired, [&](YamlReader& division) { readDivision(division, relaxation, organ); });
   organ.tip_force = in.vector("tip_force", dimension::force, organ.tip_force);
   if (relaxation == RelaxationMethod::kinematics && !organ.tip_force.isZero(0.0)) {
     in.addProblem("tip_force", "has no effect with kinematic relaxation; leave it out");
@@ -187,7 +187,7 @@ StimulusCommand readStimulus(YamlReader& in, StimulusKind kind, StimulusOperatio
 void readStimuli(YamlReader& in, std::vector<TimedStimulus>& protocol) {
   const auto readList = [&](const std::string& key, StimulusKind kind) {
     IdLines ids;
-    in.list(key, optional, [&](YamlReader& stimulus) {
+    in.list(key, kOptional, [&](YamlReader& stimulus) {
       const std::string id = readId(stimulus, ids);
       protocol.push_back({0.0, readStimulus(stimulus, kind, StimulusOperation::add, id)});
     });
@@ -209,10 +209,10 @@ TimedStimulus readProtocolEntry(YamlReader& in) {
   const auto operation =
       in.exactlyOneOf(named({StimulusOperation::add, StimulusOperation::change, StimulusOperation::remove}));
   if (!operation) return entry;
-  in.section(name(*operation), required, [&](YamlReader& stimulus) {
+  in.section(name(*operation), kRequired, [&](YamlReader& stimulus) {
     const auto kind = stimulus.exactlyOneOf(named({StimulusKind::point_source, StimulusKind::light_direction}));
     if (!kind) return;
-    stimulus.section(name(*kind), required, [&](YamlReader& fields) {
+    stimulus.section(name(*kind), kRequired, [&](YamlReader& fields) {
       entry.command = readStimulus(fields, *kind, *operation, fields.identifier("id"));
     });
   });
@@ -222,13 +222,13 @@ TimedStimulus readProtocolEntry(YamlReader& in) {
 /// `known` holds the stimuli of the world that the protocol finds, to refuse what would change nothing in it; null if
 /// that world is not known.
 void readProtocol(YamlReader& in, std::vector<TimedStimulus>& protocol, growth::Environment* known) {
-  in.section("stimuli", optional, [&](YamlReader& stimuli) { readStimuli(stimuli, protocol); });
+  in.section("stimuli", kOptional, [&](YamlReader& stimuli) { readStimuli(stimuli, protocol); });
   if (known) {
     for (const TimedStimulus& stimulus : protocol) apply(stimulus.command, *known);
   }
   double latest = 0.0;
   int latest_line = 0;
-  in.list("protocol", optional, [&](YamlReader& entry) {
+  in.list("protocol", kOptional, [&](YamlReader& entry) {
     const TimedStimulus stimulus = readProtocolEntry(entry);
     if (stimulus.time < latest) {
       entry.addProblem("at", "'" + entry.text("at") + "' is earlier than the entry before it, on line " +
@@ -248,16 +248,16 @@ Scenario readScenario(YamlReader& in) {
   Scenario scenario;
   scenario.name = in.identifier("name");
   scenario.description = in.text("description", "");
-  in.section("gravity", required, [&](YamlReader& gravity) { scenario.gravity = readGravity(gravity); });
+  in.section("gravity", kRequired, [&](YamlReader& gravity) { scenario.gravity = readGravity(gravity); });
   scenario.weight = in.flag("weight");
   scenario.duration = in.quantity("duration", dimension::time, atLeast(0), scenario.duration);
-  in.section("stepping", required, [&](YamlReader& stepping) { readStepping(stepping, scenario.stepping); });
-  in.section("relaxation", optional, [&](YamlReader& relaxation) { readRelaxation(relaxation, scenario); });
+  in.section("stepping", kRequired, [&](YamlReader& stepping) { readStepping(stepping, scenario.stepping); });
+  in.section("relaxation", kOptional, [&](YamlReader& relaxation) { readRelaxation(relaxation, scenario); });
   if (scenario.relaxation == RelaxationMethod::kinematics && scenario.weight) {
     in.addProblem("weight", "'true' has no effect with kinematic relaxation; give false");
   }
   IdLines ids;
-  in.list("organs", required,
+  in.list("organs", kRequired,
           [&](YamlReader& organ) { scenario.organs.push_back(readOrgan(organ, scenario.relaxation, ids)); });
   growth::Environment environment;
   readProtocol(in, scenario.protocol, &environment);

@@ -20,9 +20,9 @@ using System = std::unique_ptr<ut_system, decltype(&ut_free_system)>;
 using Unit = std::unique_ptr<ut_unit, decltype(&ut_free)>;
 using Converter = std::unique_ptr<cv_converter, decltype(&cv_free)>;
 
-constexpr const char* blanks = " \t";
+constexpr const char* kBlanks = " \t";
 
-constexpr std::array all_dimensions{dimension::length,  dimension::time,      dimension::rate,
+constexpr std::array kAllDimensions{dimension::length,  dimension::time,      dimension::rate,
                                     dimension::angle,   dimension::curvature, dimension::acceleration,
                                     dimension::modulus, dimension::density,   dimension::force};
 
@@ -31,8 +31,8 @@ constexpr std::array all_dimensions{dimension::length,  dimension::time,      di
 bool isPlainUnit(const std::string& text) {
   static const std::string unit = R"((?:(?:µ|μ)?[A-Za-z_]+|%|°)(?:\^?-?[1-9])?)";
   static const std::regex plain("(?:1|" + unit + ")(?: *[/*. ] *" + unit + ")*");
-  constexpr std::size_t longest = 64;  // std::regex recurses once per character
-  return text.size() <= longest && std::regex_match(text, plain);
+  constexpr std::size_t kLongestNumber = 64;  // std::regex recurses once per character
+  return text.size() <= kLongestNumber && std::regex_match(text, plain);
 }
 
 /// Null if the text is no unit.
@@ -74,7 +74,7 @@ std::string baseUnits(const ut_unit* unit) {
 std::string describe(ut_system* system, const ut_unit* unit) {
   const std::string base = baseUnits(unit);
   if (base == "1") return "a number without a dimension";
-  for (const Dimension& dimension : all_dimensions) {
+  for (const Dimension& dimension : kAllDimensions) {
     if (baseUnits(parse(system, dimension.unit).get()) == base) return dimension.name;
   }
   return "in units of " + base;
@@ -100,8 +100,8 @@ double parseNumber(const std::string& text) {
 }
 
 double parseQuantity(const std::string& text, const Dimension& dimension) {
-  const std::size_t number_end = std::min(text.find_first_of(blanks), text.size());
-  const std::size_t unit_begin = std::min(text.find_first_not_of(blanks, number_end), text.size());
+  const std::size_t number_end = std::min(text.find_first_of(kBlanks), text.size());
+  const std::size_t unit_begin = std::min(text.find_first_not_of(kBlanks, number_end), text.size());
   const std::string unit_text = text.substr(unit_begin);
 
   double number = 0.0;

@@ -3,16 +3,17 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <numeric>
 #include <sstream>
 #include <stdexcept>
 #include <system_error>
 
+#include "sensory_growth/simulation/spelling.h"
+
 namespace sensory_growth::simulation {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 int lineOf(const YAML::Mark& mark, int otherwise) { return mark.is_null() ? otherwise : mark.line + 1; }
 
@@ -20,8 +21,8 @@ int lineOf(const YAML::Mark& mark, int otherwise) { return mark.is_null() ? othe
 int lineOf(const YAML::Node& node, int otherwise) { return node.IsNull() ? otherwise : lineOf(node.Mark(), otherwise); }
 
 std::string quote(const std::string& text) {
-  constexpr std::size_t longest = 60;
-  return "'" + (text.size() > longest ? text.substr(0, longest) + "..." : text) + "'";
+  constexpr std::size_t kLongestQuote = 60;
+  return "'" + (text.size() > kLongestQuote ? text.substr(0, kLongestQuote) + "..." : text) + "'";
 }
 
 std::string describe(const YAML::Node& node) {
@@ -46,35 +47,6 @@ bool isDigit(char c) { return c >= '0' && c <= '9'; }
 bool isIdentifier(const std::string& text) {
   return !text.empty() && isLetter(text[0]) &&
          std::all_of(text.begin(), text.end(), [](char c) { return isLetter(c) || isDigit(c) || c == '_'; });
-}
-
-/// Letters to insert, delete or replace to get from a to b (Levenshtein).
-std::size_t editDistance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0);
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i + 1);
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
-    }
-  }
-  return row.back();
-}
-
-/// The known key that was probably meant: at most a third of its letters are wrong.
-const std::string* nearest(const std::string& key, const std::vector<std::string>& known) {
-  const std::string* best = nullptr;
-  std::size_t least = std::numeric_limits<std::size_t>::max();
-  for (const std::string& candidate : known) {
-    const std::size_t distance = editDistance(key, candidate);
-    if (distance < least && 3 * distance <= candidate.size()) {
-      least = distance;
-      best = &candidate;
-    }
-  }
-  return best;
 }
 
 template <typename Value>
@@ -165,18 +137,18 @@ int YamlReader::count(const std::string& key, int low, int high, std::optional<i
 
 double YamlReader::number(const std::string& key, const Range& range, std::optional<double> fallback) {
   const std::optional<std::string> text = scalar(key, presence(fallback), "give a number without a unit");
-  if (!text) return fallback.value_or(nan);
+  if (!text) return fallback.value_or(kNan);
   return convert(key, line(key), *text, [&](const std::string& number) {
-    return inRange(range.includes_infinity && number == "inf" ? infinity : parseNumber(number), range, "");
+    return inRange(range.includes_infinity && number == "inf" ? kInfinity : parseNumber(number), range, "");
   });
 }
 
 double YamlReader::quantity(const std::string& key, const Dimension& dimension, const Range& range,
                             std::optional<double> fallback) {
   const std::optional<std::string> text = scalar(key, presence(fallback), "give " + example(dimension));
-  if (!text) return fallback.value_or(nan);
+  if (!text) return fallback.value_or(kNan);
   return convert(key, line(key), *text, [&](const std::string& quantity) {
-    return inRange(range.includes_infinity && quantity == "inf" ? infinity : parseQuantity(quantity, dimension), range,
+    return inRange(range.includes_infinity && quantity == "inf" ? kInfinity : parseQuantity(quantity, dimension), range,
                    dimension.unit);
   });
 }
@@ -230,7 +202,7 @@ void YamlReader::reportUnknownKeys() {
   if (ignores_other_keys_) return;
   for (const Entry& e : entries_) {
     if (std::find(known_keys_.begin(), known_keys_.end(), e.key) != known_keys_.end()) continue;
-    const std::string* meant = nearest(e.key, known_keys_);
+    const std::string* meant = nearestName(e.key, known_keys_);
     problems_.push_back({pathOf(e.key), e.line,
                          meant ? "is an unknown key; did you mean '" + *meant + "'?"
                                : "is an unknown key; known here are " + join(known_keys_, " and ")});
@@ -280,13 +252,13 @@ double YamlReader::convert(const std::string& key, int line, const std::string& 
     return parse(text);
   } catch (const std::invalid_argument& fault) {
     problems_.push_back({pathOf(key), line, quote(text) + " " + fault.what()});
-    return nan;
+    return kNan;
   }
 }
 
 rod::Vector3 YamlReader::triple(const std::string& key, const std::string& component, const Parse& parse) {
   const std::string request = "give a sequence of three, each " + component;
-  rod::Vector3 value = rod::Vector3::Constant(nan);
+  rod::Vector3 value = rod::Vector3::Constant(kNan);
   const Entry* e = find(key, Presence::required, request);
   if (!e) return value;
   if (!e->value.IsSequence()) {

@@ -50,7 +50,7 @@ struct Parameters {
   MarkerField marker_color = MarkerField::curvature;
   double marker_color_limit = 0.0;    ///< value of the brightest colour [1/m, 1/s or -]; 0: the largest at present
   double marker_radius_scale = 1.0;   ///< thin organs are drawn this much thicker [-]
-  double marker_lamp_diameter = 0.0;  ///< [m]; 0: a fifth of the longest organ at the start
+  double marker_lamp_diameter = 0.0;  ///< [m]; 0: 0.15 of the longest organ at the start
 };
 
 struct ParameterReading {
