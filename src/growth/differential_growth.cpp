@@ -1,5 +1,6 @@
 #include "sensory_growth/growth/differential_growth.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -15,21 +16,20 @@ void addToRestBending(rod::Bend& bend, const Eigen::Vector2d& increment) {
 }  // namespace
 
 double bendRadius(const rod::Rod& rod, std::size_t bend) {
-  const rod::Element& above = rod.elements[bend];
-  if (bend == 0) return above.section.radius;
-  const rod::Element& below = rod.elements[bend - 1];
-  return (below.rest_length * below.section.radius + above.rest_length * above.section.radius) /
-         (below.rest_length + above.rest_length);
+  return rod::voronoiMean(rod, bend, [&](std::size_t e) { return rod.elements[e].section.radius; });
 }
 
-void drive(const BendingLaw& law, const Environment& environment, const rod::Rod& rod,
-           std::vector<Eigen::Vector2d>& f) {
+double drive(const BendingLaw& law, const Environment& environment, const rod::Rod& rod,
+             std::vector<Eigen::Vector2d>& f) {
   f.resize(rod.size());
+  double largest = 0.0;
   for (std::size_t j = 0; j < rod.size(); ++j) {
     const rod::Vector3 delta = differentialGrowth(law.sensitivities, environment, rod.vertices[j].position);
     const rod::Vector3 section = rod.bendFrame(j).conjugate() * delta;
     f[j] = Eigen::Vector2d(-section.y(), section.x()) / bendRadius(rod, j);
+    largest = std::max(largest, section.head<2>().norm());
   }
+  return largest;
 }
 
 void predict(rod::Rod& rod, const BendingLaw& law, const GrowthStrain& strain, const std::vector<Eigen::Vector2d>& f) {

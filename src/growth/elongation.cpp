@@ -64,16 +64,13 @@ const GrowthStrain& Elongation::strain(const Profile& profile, const rod::Rod& r
 }
 
 const GrowthStrain& Elongation::strainAtFixedLength(const Profile& profile, const rod::Rod& rod, double dt) {
-  const std::size_t n = rod.size();
   restLengths(rod, initial_);
   cellRates(profile, initial_, slope_);
-  strain_.elements.resize(n);
-  strain_.bends.resize(n);
-  for (std::size_t e = 0; e < n; ++e) {
+  strain_.elements.resize(rod.size());
+  strain_.bends.resize(rod.size());
+  for (std::size_t e = 0; e < rod.size(); ++e) {
     strain_.elements[e] = dt * slope_[e];
-    const double below = e > 0 ? initial_[e - 1] : 0.0;
-    const double weighted = (e > 0 ? below * strain_.elements[e - 1] : 0.0) + initial_[e] * strain_.elements[e];
-    strain_.bends[e] = weighted / (below + initial_[e]);
+    strain_.bends[e] = rod::voronoiMean(rod, e, [&](std::size_t k) { return dt * slope_[k]; });
   }
   return strain_;
 }

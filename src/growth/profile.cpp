@@ -42,8 +42,4 @@ double rate(const Profile& profile, double s, double L) { return std::visit(Rate
 
 double velocity(const Profile& profile, double s, double L) { return std::visit(Velocity{s, L}, profile); }
 
-double maximalRate(const Profile& profile) {
-  return std::visit([](const auto& p) { return p.rate; }, profile);
-}
-
 }  // namespace sensory_growth::growth

@@ -54,7 +54,11 @@ double dot(const RotationField& a, const RotationField& b) {
 
 double largestRotation(const RotationField& field) {
   double largest = 0.0;
-  for (const rod::Vector3& w : field) largest = std::max(largest, w.norm());
+  for (const rod::Vector3& w : field) {
+    const double angle = w.norm();
+    if (std::isnan(angle)) return angle;
+    largest = std::max(largest, angle);
+  }
   return largest;
 }
 

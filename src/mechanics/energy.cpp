@@ -5,12 +5,10 @@ namespace sensory_growth::mechanics {
 using rod::Vector3;
 
 Vector3 bendStiffness(const rod::Rod& rod, std::size_t bend) {
-  const rod::Element& above = rod.elements[bend];
-  if (bend == 0) return above.section.bendStiffness();
-  const rod::Element& below = rod.elements[bend - 1];
-  const Vector3 compliance = below.rest_length * below.section.bendStiffness().cwiseInverse() +
-                             above.rest_length * above.section.bendStiffness().cwiseInverse();
-  return (below.rest_length + above.rest_length) * compliance.cwiseInverse();
+  const auto compliance = [&](std::size_t e) -> Vector3 {
+    return rod.elements[e].section.bendStiffness().cwiseInverse();
+  };
+  return rod::voronoiMean(rod, bend, compliance).cwiseInverse();
 }
 
 Energy energy(const rod::Rod& rod, const Loads& loads) {

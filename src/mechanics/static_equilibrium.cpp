@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <vector>
 
 #include "sensory_growth/mechanics/block_tridiagonal.h"
@@ -20,10 +19,11 @@ constexpr double kEigenvalueTolerance = 1e-6;
 constexpr double kUnresolvable = 3.0;  // rad: near pi the rotation vector of a bend jumps
 
 bool isFinite(const rod::Rod& rod, const Loads& loads) {
-  bool finite = loads.gravity.allFinite() && loads.tip_force.allFinite();
+  bool finite = loads.gravity.allFinite() && loads.tip_force.allFinite() && rod.base.frame.coeffs().allFinite();
   for (const rod::Element& e : rod.elements) {
-    finite = finite && std::isfinite(e.rest_length) && e.rest_length > 0.0 && e.frame.coeffs().allFinite() &&
-             e.rest_strain.allFinite();
+    const bool has_length = std::isfinite(e.rest_length) && e.rest_length > 0.0;
+    finite = finite && has_length && std::isfinite(e.mass()) && e.section.bendStiffness().allFinite() &&
+             e.section.stretchCompliance().allFinite() && e.rest_strain.allFinite() && e.frame.coeffs().allFinite();
   }
   for (const rod::Bend& b : rod.bends) finite = finite && b.rest_curvature.allFinite();
   return finite;
@@ -76,7 +76,7 @@ struct StaticEquilibrium::Workspace {
   /// singular, and a shift that stayed would stall the last iterations.
   void newtonDirection(double& shift) {
     const double scale = hessian.largestDiagonal();
-    const double first = 1e-6 * std::min(1.0, 1e5 * residual());
+    const double first = std::max(1e-6 * std::min(1.0, 1e5 * residual()), 1e-16);
     double tau = shift;
     while (!factor.factor(hessian, tau * scale)) tau = tau > 0.0 ? 4.0 * tau : first;
     shift = tau > 4.0 * first ? tau / 4.0 : 0.0;
@@ -145,15 +145,18 @@ RelaxationReport StaticEquilibrium::relax(rod::Rod& rod, const Loads& loads) {
 
   w.energy.assign(rod, loads);
   w.readFrames(rod);
+  // Forces of all elements beyond add up in each, so round-off grows with their number.
+  const double round_off = 10.0 * static_cast<double>(rod.size()) * std::numeric_limits<double>::epsilon();
+  const double tolerance = std::max(settings_.tolerance, round_off);
   double shift = 0.0;
   while (true) {
     const double value = w.energy.evaluate(w.frames);
     w.energy.differentiate(w.gradient, w.hessian);
     report.residual = w.residual();
     report.largest_bend = w.energy.largestBend();
-    if (!std::isfinite(report.residual)) return stop(RelaxationReason::not_finite);
+    if (!std::isfinite(report.residual) || !std::isfinite(value)) return stop(RelaxationReason::not_finite);
 
-    if (report.residual < settings_.tolerance) {
+    if (report.residual < tolerance) {
       const Eigenpair lowest = lowestEigenpair(rod.base.frame, w.frames, w.hessian);
       report.lowest_eigenvalue = lowest.value;
       // What is left of the gradient shows up as an eigenvalue of the free azimuth of a buckled column; it is no
@@ -189,55 +192,6 @@ double StaticEquilibrium::lowestEigenvalue(const rod::Rod& rod, const Loads& loa
   w.energy.evaluate(w.frames);
   w.energy.differentiate(w.gradient, w.hessian);
   return lowestEigenpair(rod.base.frame, w.frames, w.hessian).value;
-}
-
-const char* name(RelaxationReason reason) {
-  switch (reason) {
-    case RelaxationReason::converged:
-      return "converged";
-    case RelaxationReason::too_many_iterations:
-      return "too_many_iterations";
-    case RelaxationReason::line_search_failed:
-      return "line_search_failed";
-    case RelaxationReason::unstable:
-      return "unstable";
-    case RelaxationReason::unresolved_bend:
-      return "unresolved_bend";
-    case RelaxationReason::not_finite:
-      return "not_finite";
-  }
-  return "?";
-}
-
-namespace {
-
-/// What a person can do about it.
-const char* advice(RelaxationReason reason) {
-  switch (reason) {
-    case RelaxationReason::converged:
-      return "";
-    case RelaxationReason::too_many_iterations:
-      return "; allow more iterations or take shorter steps";
-    case RelaxationReason::line_search_failed:
-      return "; take shorter steps";
-    case RelaxationReason::unstable:
-      return "; take shorter steps or allow more branch switches";
-    case RelaxationReason::unresolved_bend:
-      return "; use shorter elements";
-    case RelaxationReason::not_finite:
-      return "; a length, force or curvature is not a number";
-  }
-  return "";
-}
-
-}  // namespace
-
-std::string describe(const RelaxationReport& report) {
-  std::ostringstream out;
-  out << name(report.reason) << " after " << report.iterations << " Newton iterations, scaled residual "
-      << report.residual << ", lowest eigenvalue " << report.lowest_eigenvalue << " N m, " << report.branch_switches
-      << " branch switches, largest turn between elements " << report.largest_bend << " rad" << advice(report.reason);
-  return out.str();
 }
 
 }  // namespace sensory_growth::mechanics

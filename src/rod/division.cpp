@@ -1,6 +1,7 @@
 #include "sensory_growth/rod/division.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace sensory_growth::rod {
 namespace {
@@ -75,6 +76,7 @@ std::size_t divide(Rod& rod, const std::vector<bool>& selected, DivisionMode mod
 }
 
 std::size_t divideLongElements(Rod& rod, double longest, DivisionMode mode) {
+  if (!(longest > 0.0)) throw std::invalid_argument("the longest element must be positive");
   std::size_t count = 0;
   std::vector<bool> too_long;
   while (true) {

@@ -126,7 +126,8 @@ Relaxation toMessage(const simulation::OrganReport& report) {
   message.step_iterations = static_cast<std::uint32_t>(report.newton_iterations);
   message.residual = report.relaxation.residual;
   message.lowest_eigenvalue = report.relaxation.lowest_eigenvalue;
-  message.branch_switches = static_cast<std::uint32_t>(report.relaxation.branch_switches);
+  message.largest_bend = report.relaxation.largest_bend;
+  message.branch_switches = static_cast<std::uint32_t>(report.branch_switches);
   message.substeps = static_cast<std::uint32_t>(report.substeps);
   message.retries = static_cast<std::uint32_t>(report.retries);
   message.divisions = static_cast<std::uint32_t>(report.divisions);
@@ -162,6 +163,8 @@ OrganState toMessage(const OrganSnapshot& organ, const Snapshot& snapshot, const
   message.tip = toPose(rod.apex());
   message.rest_length = rod.restLength();
   message.length = rod.length();
+  message.largest_differential_growth = organ.report.largest_differential_growth;
+
   message.bending_energy = organ.energy.bending;
   message.stretching_energy = organ.energy.stretching;
   message.load_energy = organ.energy.load;

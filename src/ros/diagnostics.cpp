@@ -36,22 +36,30 @@ void reportClock(DiagnosticStatusWrapper& status) {
 }  // namespace
 
 void reportRelaxation(const OrganSnapshot& organ, DiagnosticStatusWrapper& status) {
-  const mechanics::RelaxationReport& relaxation = organ.report.relaxation;
-  if (!relaxation.ok()) {
-    status.summary(DiagnosticStatus::ERROR, mechanics::describe(relaxation));
-  } else if (organ.report.retries > 0 || relaxation.branch_switches > 0) {
+  constexpr double kCoarseBend = 0.5;  // [rad], model.md 15
+  const simulation::OrganReport& report = organ.report;
+  const mechanics::RelaxationReport& relaxation = report.relaxation;
+  if (!report.ok()) {
+    status.summary(DiagnosticStatus::ERROR, simulation::describe(report));
+  } else if (report.retries > 0 || report.branch_switches > 0) {
     status.summary(DiagnosticStatus::WARN, "in equilibrium, after help");
+  } else if (relaxation.largest_bend > kCoarseBend) {
+    status.summary(DiagnosticStatus::WARN, "coarsely resolved: use shorter elements");
+  } else if (report.largest_differential_growth > 1.0) {
+    status.summary(DiagnosticStatus::WARN, "differential growth above 1: one side would have to shrink");
   } else {
     status.summary(DiagnosticStatus::OK, "in equilibrium");
   }
   status.add("reason", mechanics::name(relaxation.reason));
   status.add("iterations", relaxation.iterations);
-  status.add("iterations of the step", organ.report.newton_iterations);
+  status.add("iterations of the step", report.newton_iterations);
   status.add("residual", relaxation.residual);
   status.add("lowest eigenvalue [N m]", relaxation.lowest_eigenvalue);
-  status.add("branch switches", relaxation.branch_switches);
-  status.add("parts of the step", organ.report.substeps);
-  status.add("parts cut again", organ.report.retries);
+  status.add("branch switches", report.branch_switches);
+  status.add("largest turn between elements [rad]", relaxation.largest_bend);
+  status.add("largest differential growth", report.largest_differential_growth);
+  status.add("parts of the step", report.substeps);
+  status.add("parts cut again", report.retries);
   status.add("elements", organ.rod.size());
   status.add("rest length [m]", organ.rod.restLength());
 }

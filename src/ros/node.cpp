@@ -118,6 +118,9 @@ Node::Node(const Parameters& parameters, LoadedScenario loaded)
       private_node_("~"),
       clock_(parameters.clock_mode, step_, parameters.clock_rate, node_),
       publishers_(parameters, loaded.sources, counters_, private_node_),
+      intake_(node_, private_node_, parameters.world_frame, counters_,
+              {[this](const simulation::StimulusCommand& command) { return loop_.send(command); },
+               [this] { loop_.refreshStatus(); }}),
       loop_(simulation::Simulation(std::move(loaded.scenario)),
             {step_, parameters.real_time_factor, parameters.start_paused}, clock_, counters_, publishers_),
       topic_spinner_(1),
@@ -130,10 +133,6 @@ Node::Node(const Parameters& parameters, LoadedScenario loaded)
     if (const auto refusal = publishers_.startRecording("", *loop_.snapshot())) throw std::runtime_error(*refusal);
     ROS_INFO_STREAM_NAMED(names::kLogRecording, "recording " << publishers_.recordingPath());
   }
-  const auto send = [this](const simulation::StimulusCommand& command) { return loop_.send(command); };
-  const auto refused = [this] { loop_.refreshStatus(); };
-  intake_ = std::make_unique<StimulusIntake>(node_, private_node_, parameters_.world_frame, counters_,
-                                             StimulusIntake::Outputs{send, refused});
   diagnostics_ = std::make_unique<Diagnostics>(
       node_, private_node_,
       Diagnostics::Sources{[this] { return loop_.snapshot(); }, [this] { return loop_.status(); },

@@ -58,7 +58,7 @@ Publishers::Publishers(const Parameters& parameters, const Sources& sources, con
   markers_ = advertise<visualization_msgs::MarkerArray>(names::kMarkers, 2, true);
   for (const std::string& organ : sources_.organs) {
     states_[organ] =
-        advertise<OrganState>(std::string(names::kOrgans) + "/" + organ + "/" + names::kState, kQueue, false);
+        advertise<OrganState>(std::string(names::kOrgans) + "/" + organ + "/" + names::kState, kQueue, true);
   }
   tf_ = {node_.resolveName(names::kTf), false, {}};
   tf_static_ = {node_.resolveName(names::kTfStatic), true, {}};

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "sensory_growth/mechanics/rest_shape.h"
 #include "sensory_growth/rod/division.h"
 
 namespace sensory_growth::simulation {
@@ -14,6 +15,7 @@ Organ::Organ(const OrganScenario& organ, const Scenario& scenario)
     : scenario_(organ),
       stepping_(scenario.stepping),
       method_(scenario.relaxation),
+      relaxation_settings_(scenario.relaxation_settings),
       equilibrium_(scenario.relaxation_settings) {
   if (scenario.weight) loads_.gravity = scenario.gravity;
   loads_.tip_force = organ.tip_force;
@@ -22,32 +24,39 @@ Organ::Organ(const OrganScenario& organ, const Scenario& scenario)
   for (rod::Bend& bend : rod_.bends) bend.curvature = bend.rest_curvature = organ.rest_curvature;
   rod_.rebuild();
   report_.divisions = rod::divideLongElements(rod_, organ.longest_element, organ.division);
-  if (!relax()) {
-    report_.fault = OrganFault::relaxation;
+  report_.fault = relax();
+  if (!report_.ok()) {
     throw std::invalid_argument("organ '" + organ.id + "' has no equilibrium to start from: " + describe(report_));
   }
   before_step_ = rod_;
+  report_before_step_ = report_;
 }
 
 const OrganReport& Organ::advance(double dt, const growth::Environment& environment) {
   const double smallest = stepping_.limits.smallest_part * dt;
   before_step_ = rod_;
+  report_before_step_ = report_;
   report_ = {};
+  const auto giveUp = [this](OrganFault fault) -> const OrganReport& {
+    rod_ = before_step_;
+    report_.fault = fault;
+    return report_;
+  };
+
   double remaining = dt;
   double longest_allowed = dt;
   while (remaining > 0.0) {
+    if (longest_allowed < smallest) return giveUp(OrganFault::relaxation);
     const double limit = std::min(longestPart(environment), longest_allowed);
-    if (!(limit >= smallest)) {
-      report_.fault = longest_allowed < smallest ? OrganFault::relaxation : OrganFault::step_limits;
-      rod_ = before_step_;
-      return report_;
-    }
+    if (!(limit >= smallest)) return giveUp(OrganFault::step_limits);
     // A remainder is cut into equal parts, so that none is a sliver.
     const double parts = std::max(1.0, std::ceil(remaining / limit * (1.0 - 1e-12)));
     const double part = remaining / parts;
 
     before_part_ = rod_;
-    if (growAndRelax(part, environment)) {
+    const OrganFault fault = growAndRelax(part, environment);
+    if (fault == OrganFault::too_many_elements) return giveUp(fault);
+    if (fault == OrganFault::none) {
       remaining = parts > 1.0 ? remaining - part : 0.0;
       longest_allowed = dt;
       ++report_.substeps;
@@ -60,66 +69,63 @@ const OrganReport& Organ::advance(double dt, const growth::Environment& environm
   return report_;
 }
 
-void Organ::undo() { rod_ = before_step_; }
+void Organ::undo() {
+  rod_ = before_step_;
+  report_ = report_before_step_;
+}
 
-bool Organ::growAndRelax(double dt, const growth::Environment& environment) {
+/// Expects drive_ at the start of the part, as longestPart() leaves it.
+OrganFault Organ::growAndRelax(double dt, const growth::Environment& environment) {
   const growth::GrowthStrain& strain = scenario_.elongation
                                            ? elongation_.strain(scenario_.profile, rod_, dt)
                                            : elongation_.strainAtFixedLength(scenario_.profile, rod_, dt);
-  growth::drive(scenario_.bending, environment, rod_, drive_);
-
   if (scenario_.elongation) growth::elongate(rod_, strain);
   growth::predict(rod_, scenario_.bending, strain, drive_);
   rod_.rebuild();
-  if (!relax()) return false;
+  if (relax() != OrganFault::none) return OrganFault::relaxation;
 
   if (stepping_.second_order) {
     growth::drive(scenario_.bending, environment, rod_, new_drive_);
     growth::correct(rod_, scenario_.bending, strain, drive_, new_drive_);
     rod_.rebuild();
-    if (!relax()) return false;
+    if (relax() != OrganFault::none) return OrganFault::relaxation;
   }
 
   const std::size_t divisions = rod::divideLongElements(rod_, scenario_.longest_element, scenario_.division);
   report_.divisions += divisions;
-  return divisions == 0 || relax();
+  if (rod_.size() > kMostElements) return OrganFault::too_many_elements;
+  return divisions == 0 ? OrganFault::none : relax();
 }
 
-bool Organ::relax() {
-  if (method_ == RelaxationMethod::kinematics) {
-    for (rod::Bend& bend : rod_.bends) bend.curvature = bend.rest_curvature;
-    for (rod::Element& element : rod_.elements) element.strain = element.rest_strain;
-    rod_.rebuild();
-    return true;
-  }
-  report_.relaxation = equilibrium_.relax(rod_, loads_);
+OrganFault Organ::relax() {
+  report_.relaxation = method_ == RelaxationMethod::statics ? equilibrium_.relax(rod_, loads_)
+                                                            : mechanics::assumeRestShape(rod_, relaxation_settings_);
   report_.newton_iterations += report_.relaxation.iterations;
   report_.branch_switches += report_.relaxation.branch_switches;
-  return report_.relaxation.ok();
+  return report_.relaxation.ok() ? OrganFault::none : OrganFault::relaxation;
 }
 
+/// Leaves the drive of the organ as it stands in drive_.
 double Organ::longestPart(const growth::Environment& environment) {
   const StepLimits& limits = stepping_.limits;
   const growth::BendingLaw& law = scenario_.bending;
   growth::elementRates(scenario_.profile, rod_, rates_);
-  growth::drive(law, environment, rod_, drive_);
+  const double differential_growth = growth::drive(law, environment, rod_, drive_);
+  report_.largest_differential_growth = std::max(report_.largest_differential_growth, differential_growth);
 
   double fastest_growth = 0.0;
   double fastest_bend = 0.0;
   double total_turning = 0.0;
   double tip_speed = 0.0;
   for (std::size_t j = 0; j < rod_.size(); ++j) {
-    const double length = rod_.elements[j].rest_length;
-    const double below = j > 0 ? rod_.elements[j - 1].rest_length : 0.0;
-    const double below_rate = j > 0 ? rates_[j - 1] : 0.0;
-    const double bend_rate = (below * below_rate + length * rates_[j]) / (below + length);
+    const double bend_rate = rod::voronoiMean(rod_, j, [this](std::size_t e) { return rates_[e]; });
     const double straightening = law.proprioception_length / growth::bendRadius(rod_, j);
     const Eigen::Vector2d slope = drive_[j] - straightening * rod_.bends[j].rest_curvature.head<2>();
     const double turning = rod_.voronoiLength(j) * bend_rate * slope.norm();
     fastest_growth = std::max(fastest_growth, rates_[j]);
     fastest_bend = std::max(fastest_bend, turning);
     total_turning += turning;
-    tip_speed += length * rates_[j];
+    tip_speed += rod_.elements[j].rest_length * rates_[j];
   }
 
   const auto longest = [](double limit, double speed) {
@@ -145,6 +151,9 @@ std::string describe(const OrganReport& report) {
       break;
     case OrganFault::relaxation:
       out << "relaxation failed";
+      break;
+    case OrganFault::too_many_elements:
+      out << "more than " << kMostElements << " elements; let growth end earlier or allow a longer longest_element";
       break;
     case OrganFault::step_limits:
       out << "the step limits ask for parts smaller than stepping allows; shorten the step or relax the limits";

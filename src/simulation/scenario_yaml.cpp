@@ -19,7 +19,6 @@ using rod::Vector3;
 constexpr auto kRequired = Presence::required;
 constexpr auto kOptional = Presence::optional;
 
-constexpr int kMostElements = 100000;
 constexpr double kPi = 3.14159265358979323846;
 
 /// Where each id was first given, to refuse a second one.

@@ -1,5 +1,7 @@
 #include "sensory_growth/simulation/simulation.h"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -16,7 +18,12 @@ std::vector<Organ> buildOrgans(const Scenario& scenario) {
 }  // namespace
 
 Simulation::Simulation(Scenario scenario) : scenario_(std::move(scenario)) {
-  if (!(scenario_.stepping.step > 0.0)) throw std::invalid_argument("stepping.step must be positive");
+  const double step = scenario_.stepping.step;
+  if (!(step > 0.0) || !std::isfinite(step)) throw std::invalid_argument("stepping.step must be positive and finite");
+  const auto earlier = [](const TimedStimulus& a, const TimedStimulus& b) { return a.time < b.time; };
+  if (!std::is_sorted(scenario_.protocol.begin(), scenario_.protocol.end(), earlier)) {
+    throw std::invalid_argument("the protocol must be in order of time");
+  }
   reset();
 }
 

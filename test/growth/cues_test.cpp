@@ -46,6 +46,23 @@ TEST(Cues, SofteningFadesTheLampSmoothlyAtItsPlace) {
   EXPECT_DOUBLE_EQ(differentialGrowth(sensitivities, environment, Vector3(1e-300, 0, 0)).x(), -1.0);
 }
 
+TEST(Drive, ActsInTheCrossSectionWithTheRadiusOfTheBend) {
+  rod::Section section;
+  section.young_modulus = section.shear_modulus = 1.0;
+  section.radius = 0.1;
+  rod::Rod rod = rod::straightRod({}, 2.0, 2, section);
+  rod.elements[1].section.radius = 0.4;
+  rod.elements[0].rest_length = 0.5;  // the bend between them belongs to the second element for two thirds
+  Environment environment;
+  environment.light_directions = {{"sun", Vector3(0.6, 0.48, 0.64), 1.0}};
+  BendingLaw law;
+  law.sensitivities.light_direction = 0.5;
+  std::vector<Eigen::Vector2d> f;
+  EXPECT_NEAR(drive(law, environment, rod, f), 0.5 * std::hypot(0.6, 0.48), 1e-15);
+  EXPECT_LT((f[0] - Eigen::Vector2d(-0.24, 0.3) / 0.1).norm(), 1e-14);
+  EXPECT_LT((f[1] - Eigen::Vector2d(-0.24, 0.3) / 0.3).norm(), 1e-14);
+}
+
 TEST(Phi, FollowsTheirDefinitionsThroughZero) {
   EXPECT_EQ(phi1(0.0), 1.0);
   EXPECT_EQ(phi2(0.0), 0.5);

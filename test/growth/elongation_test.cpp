@@ -2,6 +2,7 @@
 
 #include "sensory_growth/growth/elongation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -36,13 +37,20 @@ TEST(LogisticGrowth, ReachesTheReferenceLengths) {
 }
 
 TEST(LogisticGrowth, IntegratesAtFourthOrder) {
+  // L(2) of dL/dt = V(L), L(0) = 2, integrated on its own to twelve digits.
   const auto error = [](double dt) {
-    return grownLength(LogisticProfile{1.0, 1.0, 15.0}, 2.0, 2.0, dt) -
-           grownLength(LogisticProfile{1.0, 1.0, 15.0}, 2.0, 2.0, 0.001);
+    return grownLength(LogisticProfile{1.0, 1.0, 15.0}, 2.0, 2.0, dt) - 4.000000039429;
   };
   EXPECT_LT(std::abs(error(0.1)), 4e-6);  // model.md 3.3
+  EXPECT_LT(std::abs(error(0.05)), 2e-7);
   EXPECT_LT(std::abs(error(0.025)), 2e-8);
   EXPECT_NEAR(support::order(error(0.05), error(0.025)), 4.0, 0.4);
+}
+
+TEST(SoftLogisticGrowth, ReachesTheReferenceLengths) {
+  const Profile profile = LogisticProfile{1.0, 1.0, 5.0};  // V12c
+  EXPECT_NEAR(grownLength(profile, 0.5, 2.0, 0.1), 2.223776491, 1e-5);
+  EXPECT_NEAR(grownLength(profile, 2.0, 2.0, 0.1), 4.002417267, 1e-5);
 }
 
 TEST(FlatGrowth, ReachesTheReferenceLengths) {
@@ -87,16 +95,38 @@ TEST(Growth, LengthsStayPositiveForAnyStep) {
   }
 }
 
-TEST(Growth, StrainOfABendIsTheLengthWeightedMeanOfItsElements) {
+TEST(Growth, StrainOfABendIsThatOfItsVoronoiCell) {
   std::mt19937 generator(5);
-  const rod::Rod rod = support::randomRod(generator, 10);
+  const rod::Rod before = support::randomRod(generator, 10);
+  const Profile profile = LogisticProfile{1.0, 0.4, 5.0};
   Elongation elongation;
-  const double dt = 1e-6;
-  const GrowthStrain free = elongation.strain(LogisticProfile{1.0, 0.4, 5.0}, rod, dt);
-  const GrowthStrain held = elongation.strainAtFixedLength(LogisticProfile{1.0, 0.4, 5.0}, rod, dt);
-  for (std::size_t j = 0; j < rod.size(); ++j) {
-    EXPECT_NEAR(free.elements[j] / dt, held.elements[j] / dt, 1e-5);
-    EXPECT_NEAR(free.bends[j] / dt, held.bends[j] / dt, 1e-5);
+  rod::Rod after = before;
+  const GrowthStrain free = elongation.strain(profile, before, 0.3);
+  elongate(after, free);
+  for (std::size_t j = 0; j < before.size(); ++j) {
+    EXPECT_NEAR(free.bends[j], std::log(after.voronoiLength(j) / before.voronoiLength(j)), 1e-14);
+  }
+}
+
+TEST(Growth, StrainAtFixedLengthIsTheLengthWeightedMeanOfTheRates) {
+  std::mt19937 generator(6);
+  const rod::Rod rod = support::randomRod(generator, 10);
+  const Profile profile = ApicalFlatProfile{2.0, 0.37};
+  Elongation elongation;
+  const GrowthStrain held = elongation.strainAtFixedLength(profile, rod, 0.3);
+  const double L = rod.restLength();
+  double s = 0.0;
+  double length_below = 0.0;
+  double growth_below = 0.0;  // growth strain times length of the element below
+  for (std::size_t e = 0; e < rod.size(); ++e) {
+    const double length = rod.elements[e].rest_length;
+    const double in_zone = std::clamp(s + length - (L - 0.37), 0.0, length);
+    const double growth = 0.3 * 2.0 * in_zone;
+    EXPECT_NEAR(held.elements[e], growth / length, 1e-13);
+    EXPECT_NEAR(held.bends[e], (growth_below + growth) / (length_below + length), 1e-13);
+    s += length;
+    length_below = length;
+    growth_below = growth;
   }
 }
 

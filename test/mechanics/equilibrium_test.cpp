@@ -1,6 +1,7 @@
 // Static equilibria against closed forms and independent shooting solutions: V1, V2, V3 of model.md 18.
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <random>
 
@@ -180,9 +181,21 @@ TEST(StaticEquilibrium, RefusesNumbersThatAreNotFinite) {
   Loads loads = support::unitGravity();
   loads.tip_force.y() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(StaticEquilibrium().relax(rod, loads).reason, RelaxationReason::not_finite);
-  rod.bends[3].rest_curvature.x() = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(StaticEquilibrium().relax(rod, support::unitGravity()).reason, RelaxationReason::not_finite);
-  for (std::size_t v = 0; v <= rod.size(); ++v) EXPECT_EQ(rod.vertices[v].position, before.vertices[v].position);
+  const auto broken = [&](const std::function<void(rod::Rod&)>& damage) {
+    rod::Rod damaged = before;
+    damage(damaged);
+    const RelaxationReason reason = StaticEquilibrium().relax(damaged, support::unitGravity()).reason;
+    EXPECT_EQ(damaged.vertices.back().position, before.vertices.back().position);
+    return reason;
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(broken([&](rod::Rod& r) { r.bends[3].rest_curvature.x() = nan; }), RelaxationReason::not_finite);
+  EXPECT_EQ(broken([&](rod::Rod& r) { r.elements[2].section.young_modulus = nan; }), RelaxationReason::not_finite);
+  EXPECT_EQ(broken([&](rod::Rod& r) { r.elements[2].section.density = nan; }), RelaxationReason::not_finite);
+  EXPECT_EQ(broken([&](rod::Rod& r) { r.elements[2].rest_length = -1.0; }), RelaxationReason::not_finite);
+  EXPECT_EQ(broken([&](rod::Rod& r) { r.base.frame.x() = nan; }), RelaxationReason::not_finite);
+  loads.tip_force = {0.0, 1e308, 0.0};
+  EXPECT_EQ(StaticEquilibrium().relax(rod, loads).reason, RelaxationReason::not_finite);
 }
 
 TEST(StaticEquilibrium, SaysWhenTheRodIsTooCoarseAndLeavesItAlone) {
@@ -192,6 +205,26 @@ TEST(StaticEquilibrium, SaysWhenTheRodIsTooCoarseAndLeavesItAlone) {
   EXPECT_EQ(report.reason, RelaxationReason::unresolved_bend);
   EXPECT_NEAR(report.largest_bend, 2.0, 1e-8);
   EXPECT_EQ(rod.vertices.back().position.x(), 1.0);
+}
+
+TEST(StaticEquilibrium, DoesNotAskForLessThanRoundOff) {
+  RelaxationSettings impossible;
+  impossible.tolerance = 0.0;
+  for (const std::size_t n : {100u, 10000u}) {
+    rod::Rod rod = horizontal(n, support::section(0.01, 1.0, 1.0));
+    const RelaxationReport report = StaticEquilibrium(impossible).relax(rod, support::unitGravity());
+    EXPECT_TRUE(report.ok()) << describe(report);
+    EXPECT_LE(report.iterations, 6);
+  }
+}
+
+TEST(StaticEquilibrium, LimitsTheTurnOfAnIteration) {
+  // Few elements with a strong rest curvature: unlimited steps would leave the range where rotation vectors are unique.
+  rod::Rod rod = horizontal(6, support::section(0.01, 1.0, 10.0));
+  for (rod::Bend& b : rod.bends) b.rest_curvature = {3.0, -6.0, 2.0};
+  const RelaxationReport report = StaticEquilibrium().relax(rod, support::unitGravity());
+  EXPECT_TRUE(report.ok()) << describe(report);
+  EXPECT_GT(report.lowest_eigenvalue, 0.0);
 }
 
 TEST(StaticEquilibrium, SaysWhenIterationsRunOut) {

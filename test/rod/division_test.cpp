@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <stdexcept>
 
 #include <gtest/gtest.h>
 
@@ -111,6 +112,7 @@ TEST_P(Division, DoesNotDependOnTheOrder) {
     EXPECT_EQ(upper_first.bends[j].curvature, lower_first.bends[j].curvature);
     EXPECT_EQ(upper_first.bends[j].rest_curvature, lower_first.bends[j].rest_curvature);
     EXPECT_EQ(upper_first.bends[j].curvature, together.bends[j].curvature);
+    EXPECT_EQ(upper_first.bends[j].rest_curvature, together.bends[j].rest_curvature);
   }
 }
 
@@ -229,6 +231,8 @@ TEST(Division, PlanarEnergyNeverRisesAndFallsByItsClosedForm) {
     const double lower = (rod.bends[e].curvature - rod.bends[e].rest_curvature).y();
     const double upper = (rod.bends[e + 1].curvature - rod.bends[e + 1].rest_curvature).y();
     const double expected = -rod.elements[e].rest_length * (upper - lower) * (upper - lower) / 16.0;
+    const Bend middle = divided(rod, e, DivisionMode::keep_strain).bends[e + 1];
+    EXPECT_NEAR(middle.curvature.y(), 0.5 * (rod.bends[e].curvature + rod.bends[e + 1].curvature).y(), 1e-12);
     const double before = mechanics::energy(rod, {}).bending;
     const double after = mechanics::energy(divided(rod, e, DivisionMode::keep_strain), {}).bending;
     EXPECT_NEAR(after - before, expected, 1e-12);
@@ -240,6 +244,7 @@ TEST(DivideLongElements, DividesUntilNoneIsTooLong) {
   EXPECT_EQ(divideLongElements(rod, 0.1, DivisionMode::keep_strain), 9u);  // 3 to 6 to 12 elements of 1/12
   EXPECT_EQ(rod.size(), 12u);
   EXPECT_EQ(divideLongElements(rod, 0.1, DivisionMode::keep_strain), 0u);
+  EXPECT_THROW(divideLongElements(rod, 0.0, DivisionMode::keep_strain), std::invalid_argument);
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <random>
 
 #include "sensory_growth/mechanics/loads.h"

@@ -25,8 +25,10 @@ struct BendingLaw {
 /// Rest radius at a bend, averaged over its two half cells [m].
 double bendRadius(const rod::Rod& rod, std::size_t bend);
 
-/// f of every bend [1/m per unit growth strain], sensed with the actual frames and positions; size n.
-void drive(const BendingLaw& law, const Environment& environment, const rod::Rod& rod, std::vector<Eigen::Vector2d>& f);
+/// f of every bend [1/m per unit growth strain], sensed with the actual frames and positions; size n. Returns the
+/// largest differential growth in a cross-section [-]: above 1, tissue on one side would have to shrink (model.md 4.1).
+double drive(const BendingLaw& law, const Environment& environment, const rod::Rod& rod,
+             std::vector<Eigen::Vector2d>& f);
 
 /// First-order exponential step of the rest curvature with the drive held at f: exact in the stiff proprioceptive term.
 void predict(rod::Rod& rod, const BendingLaw& law, const GrowthStrain& strain, const std::vector<Eigen::Vector2d>& f);

@@ -33,7 +33,4 @@ double rate(const Profile& profile, double s, double L);
 /// overflow for any s in [0, L], organs shorter than their zone included.
 double velocity(const Profile& profile, double s, double L);
 
-/// The largest relative elongation rate the profile can reach [1/s].
-double maximalRate(const Profile& profile);
-
 }  // namespace sensory_growth::growth

@@ -41,7 +41,7 @@ class BlockCholesky {
 
 double dot(const RotationField& a, const RotationField& b);
 
-/// Largest rotation angle in the field.
+/// Largest rotation angle in the field; NaN if any is.
 double largestRotation(const RotationField& field);
 
 struct Eigenpair {

@@ -16,6 +16,7 @@ enum class DivisionMode {
 };
 
 /// Divides every element longer than `longest` [m], repeatedly, until none is. Returns the number of divisions.
+/// Throws std::invalid_argument unless longest > 0.
 std::size_t divideLongElements(Rod& rod, double longest, DivisionMode mode);
 
 /// Divides the elements for which `selected` (size n) is true, once. Returns the number of divisions.

@@ -9,6 +9,7 @@
 /// frame.
 
 #include <cstddef>
+#include <type_traits>
 #include <vector>
 
 #include "sensory_growth/rod/rotations.h"
@@ -73,6 +74,16 @@ struct Rod {
   /// Recomputes positions from base, frames and strain.
   void rebuildPositions();
 };
+
+/// Mean over the Voronoi cell of a bend of what value(e) gives for its elements: weighted by rest length.
+template <typename Value>
+auto voronoiMean(const Rod& rod, std::size_t bend, const Value& value) {
+  using Mean = std::decay_t<decltype(value(bend))>;
+  if (bend == 0) return Mean(value(bend));
+  const double below = rod.elements[bend - 1].rest_length;
+  const double above = rod.elements[bend].rest_length;
+  return Mean((below * value(bend - 1) + above * value(bend)) / (below + above));
+}
 
 /// A straight, stress-free rod of `elements` equal elements. Throws std::invalid_argument unless length, radius,
 /// elements and the moduli are positive and finite.

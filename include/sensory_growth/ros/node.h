@@ -66,8 +66,8 @@ class Node {
   StimulusCounters counters_;
   Clock clock_;
   Publishers publishers_;
+  StimulusIntake intake_;  // before the loop, so that it hears the transforms of the first state
   SimulationLoop loop_;
-  std::unique_ptr<StimulusIntake> intake_;
   std::unique_ptr<Diagnostics> diagnostics_;
   std::vector<ros::ServiceServer> services_;
   std::vector<ros::WallTimer> timers_;

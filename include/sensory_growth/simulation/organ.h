@@ -15,8 +15,9 @@ namespace sensory_growth::simulation {
 /// Why a step of an organ was given up.
 enum class OrganFault {
   none,
-  relaxation,   ///< no equilibrium, however small the part of the step
-  step_limits,  ///< the step limits ask for smaller parts than Stepping allows: the step is far too long
+  relaxation,         ///< no equilibrium, however small the part of the step
+  too_many_elements,  ///< more than kMostElements: growth outran longest_element
+  step_limits,        ///< the step limits ask for smaller parts than Stepping allows: the step is far too long
 };
 
 /// What happened in one step of one organ.
@@ -28,6 +29,9 @@ struct OrganReport {
   int newton_iterations = 0;               ///< of all relaxations
   int branch_switches = 0;                 ///< unstable equilibria left, in all relaxations
   std::size_t divisions = 0;
+
+  /// Largest differential growth [-]; above 1, tissue on one side of the organ would have to shrink.
+  double largest_differential_growth = 0.0;
 
   bool ok() const { return fault == OrganFault::none; }
 };
@@ -46,7 +50,7 @@ class Organ {
   /// the organ is left as it was before the call.
   const OrganReport& advance(double dt, const growth::Environment& environment);
 
-  /// Takes back the last advance().
+  /// Takes back the last advance(), its report included.
   void undo();
 
   const OrganScenario& scenario() const { return scenario_; }
@@ -59,19 +63,20 @@ class Organ {
 
  private:
   double longestPart(const growth::Environment& environment);
-  bool growAndRelax(double dt, const growth::Environment& environment);
-  bool relax();
+  OrganFault growAndRelax(double dt, const growth::Environment& environment);
+  OrganFault relax();
 
   OrganScenario scenario_;
   Stepping stepping_;
   RelaxationMethod method_;
+  mechanics::RelaxationSettings relaxation_settings_;
   mechanics::Loads loads_;
   rod::Rod rod_, before_step_, before_part_;
   mechanics::StaticEquilibrium equilibrium_;
   growth::Elongation elongation_;
   std::vector<Eigen::Vector2d> drive_, new_drive_;
   std::vector<double> rates_;
-  OrganReport report_;
+  OrganReport report_, report_before_step_;
 };
 
 }  // namespace sensory_growth::simulation

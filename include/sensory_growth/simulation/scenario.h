@@ -3,6 +3,7 @@
 /// Everything that defines a simulation before it starts. Plain data in SI units; simulation/scenario_yaml.h reads it.
 
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,9 @@
 #include "sensory_growth/simulation/stimuli.h"
 
 namespace sensory_growth::simulation {
+
+/// An organ whose elements become more than these fails: without a limit, growth would go on until memory ends.
+constexpr std::size_t kMostElements = 100000;
 
 /// How the organ finds its shape once the rest state has grown.
 enum class RelaxationMethod {
@@ -34,7 +38,7 @@ struct OrganScenario {
   bool elongation = true;  ///< off: the organ bends by growth but keeps its length (the AC model)
   growth::BendingLaw bending;
 
-  double longest_element = 0.0;  ///< longer elements divide [m]; infinity: never
+  double longest_element = std::numeric_limits<double>::infinity();  ///< longer elements divide [m]; infinity: never
   rod::DivisionMode division = rod::DivisionMode::keep_strain;
 };
 
@@ -70,7 +74,7 @@ struct Scenario {
   Stepping stepping;
   double duration = 0.0;  ///< growth time after which an unattended run ends [s]; 0: never
   std::vector<OrganScenario> organs;
-  std::vector<TimedStimulus> protocol;  ///< in order of time; entries at time 0 are the initial stimuli
+  std::vector<TimedStimulus> protocol;  ///< in order of time; time 0 is the start
 };
 
 }  // namespace sensory_growth::simulation

@@ -30,8 +30,8 @@ class Simulation {
   /// Throws std::invalid_argument naming the organ and the fault.
   explicit Simulation(Scenario scenario);
 
-  /// Advances every organ by one step, then takes the commands of the protocol that have fallen due. When an organ fails, no
-  /// organ and no counter moves and the report says why.
+  /// Advances every organ by one step, then takes the commands of the protocol that have fallen due. When an organ
+  /// fails, no organ and no counter moves and the report says why.
   StepReport step();
 
   /// Applies a command now, between two steps, and keeps it in applied().

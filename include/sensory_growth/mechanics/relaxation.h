@@ -1,0 +1,46 @@
+#pragma once
+
+/// What every way of relaxing takes and reports.
+
+#include <string>
+
+namespace sensory_growth::mechanics {
+
+/// How the search for equilibrium is run; the defaults serve every shipped scenario.
+struct RelaxationSettings {
+  /// On the scaled residual of model.md 12.4 [-]; below the round-off of n elements, 10 n epsilon, that takes its
+  /// place.
+  double tolerance = 1e-10;
+  int max_iterations = 200;                    ///< over all branches [-]
+  int max_branch_switches = 4;                 ///< moves away from unstable equilibria [-]
+  double max_rotation = 0.6;                   ///< largest turn of an element per iteration [rad]
+  double max_bend_angle = 1.5707963267948966;  ///< larger turns between neighbours are refused as unresolved [rad]
+};
+
+enum class RelaxationReason {
+  converged,
+  too_many_iterations,
+  line_search_failed,  ///< no step along the Newton direction lowers the energy
+  unstable,            ///< every branch that was followed ended in an unstable equilibrium
+  unresolved_bend,     ///< neighbouring elements turned by more than max_bend_angle: the rod needs more elements
+  not_finite,          ///< the input or an iterate holds NaN or infinity
+};
+
+struct RelaxationReport {
+  RelaxationReason reason = RelaxationReason::converged;
+  int iterations = 0;              ///< Newton iterations, all branches together
+  double residual = 0.0;           ///< scaled [-]
+  double lowest_eigenvalue = 0.0;  ///< of the Hessian at the end [N m]; close to zero for a free azimuth
+  int branch_switches = 0;         ///< unstable equilibria left along their eigenvector
+  double largest_bend = 0.0;       ///< largest turn between neighbouring elements [rad]
+
+  bool ok() const { return reason == RelaxationReason::converged; }
+};
+
+/// One sentence for people, with the figures.
+std::string describe(const RelaxationReport& report);
+
+/// Name of the reason, as in the enumeration.
+const char* name(RelaxationReason reason);
+
+}  // namespace sensory_growth::mechanics
