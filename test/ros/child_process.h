@@ -1,0 +1,72 @@
+#pragma once
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace sensory_growth::node::testing {
+
+/// A program started by the test, with what it prints in a file.
+class ChildProcess {
+ public:
+  ChildProcess(const std::vector<std::string>& command, std::string output) : output_(std::move(output)) {
+    std::vector<char*> arguments;
+    for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
+    arguments.push_back(nullptr);
+    const int file = open(output_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    pid_ = fork();
+    if (pid_ == 0) {
+      dup2(file, STDOUT_FILENO);
+      dup2(file, STDERR_FILENO);
+      execv(arguments[0], arguments.data());
+      _exit(127);
+    }
+    close(file);
+  }
+
+  ~ChildProcess() {
+    if (pid_ > 0) {
+      kill(pid_, SIGKILL);
+      waitpid(pid_, nullptr, 0);
+    }
+    unlink(output_.c_str());
+  }
+
+  void signal(int number) const { kill(pid_, number); }
+
+  /// Exit code; -1 and a failed test if it does not end in time, or by a signal.
+  int waitForExit(std::chrono::milliseconds patience) {
+    const auto deadline = std::chrono::steady_clock::now() + patience;
+    int status = 0;
+    while (waitpid(pid_, &status, WNOHANG) == 0) {
+      if (std::chrono::steady_clock::now() > deadline) {
+        ADD_FAILURE() << "still running after " << patience.count() << " ms\n" << printed();
+        return -1;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));  // between two looks; nothing notifies
+    }
+    pid_ = -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+  std::string printed() const {
+    std::ifstream file(output_);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  }
+
+ private:
+  const std::string output_;
+  pid_t pid_ = -1;
+};
+
+}  // namespace sensory_growth::node::testing

@@ -1,0 +1,138 @@
+#include "sensory_growth/ros/conversions.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "ros/snapshots.h"
+
+namespace sensory_growth::node {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::SizeIs;
+
+TEST(OrganStateMessage, HoldsOneEntryForEachVertexElementAndBend) {
+  const auto snapshot = testing::snapshotOf("stem");
+  const OrganState message = toMessage(snapshot->organs[0], *snapshot, "world");
+  EXPECT_EQ(message.header.stamp, ros::Time(7, 500000000));
+  EXPECT_EQ(message.header.frame_id, "world");
+  EXPECT_EQ(message.organ, "stem");
+  EXPECT_EQ(message.step_index, 6u);
+  EXPECT_EQ(message.growth_time, 360.0);
+  EXPECT_THAT(message.positions, SizeIs(5));
+  EXPECT_THAT(message.rest_arc_length, SizeIs(5));
+  EXPECT_THAT(message.frames, SizeIs(4));
+  EXPECT_THAT(message.radius, ElementsAre(1e-3, 1e-3, 1e-3, 1e-3));
+  EXPECT_THAT(message.strain, SizeIs(4));
+  EXPECT_THAT(message.growth_rate, ElementsAre(0.0, 1e-6, 2e-6, 4e-6));
+  EXPECT_THAT(message.curvature, SizeIs(4));
+  EXPECT_THAT(message.rest_curvature, SizeIs(4));
+  EXPECT_NEAR(message.rest_arc_length.back(), 0.04, 1e-15);
+  EXPECT_NEAR(message.rest_length, 0.04, 1e-15);
+  EXPECT_EQ(message.bending_energy, 1.0);
+  EXPECT_EQ(message.stretching_energy, 2.0);
+  EXPECT_EQ(message.load_energy, -3.0);
+}
+
+TEST(OrganStateMessage, TipOfAStraightOrganStandsOnItsBaseWithZAlongTheTangent) {
+  const auto snapshot = testing::snapshotOf("stem");
+  const OrganState message = toMessage(snapshot->organs[0], *snapshot, "world");
+  EXPECT_NEAR(message.tip.position.x, 1.0, 1e-15);
+  EXPECT_NEAR(message.tip.position.y, 2.0, 1e-15);
+  EXPECT_NEAR(message.tip.position.z, 3.04, 1e-15);
+  EXPECT_NEAR(std::abs(message.tip.orientation.w), 1.0, 1e-15);  // the identity: z is up, and so is the organ
+}
+
+TEST(OrganStateMessage, PositiveFirstCurvatureTurnsTheTangentFromZToMinusY) {
+  auto snapshot = testing::snapshotOf("stem");
+  rod::Rod& rod = snapshot->organs[0].rod;
+  for (rod::Bend& bend : rod.bends) bend.curvature.x() = 1.0;  // 1/m about d1
+  rod.rebuild();
+  const OrganState message = toMessage(snapshot->organs[0], *snapshot, "world");
+  EXPECT_NEAR(message.tip.orientation.x, std::sin(0.02), 1e-12);  // half of 1/m times 0.04 m, about x
+  EXPECT_LT(message.tip.position.y, 2.0);
+}
+
+TEST(RelaxationMessage, KeepsReasonAndFigures) {
+  simulation::OrganReport report;
+  report.relaxation.reason = mechanics::RelaxationReason::unresolved_bend;
+  report.relaxation.iterations = 5;
+  report.newton_iterations = 9;
+  report.substeps = 3;
+  report.retries = 2;
+  report.divisions = 1;
+  const Relaxation message = toMessage(report);
+  EXPECT_EQ(message.reason, Relaxation::UNRESOLVED_BEND);
+  EXPECT_EQ(message.iterations, 5u);
+  EXPECT_EQ(message.step_iterations, 9u);
+  EXPECT_EQ(message.substeps, 3u);
+  EXPECT_EQ(message.retries, 2u);
+  EXPECT_EQ(message.divisions, 1u);
+}
+
+TEST(Command, OfAPointSource) {
+  PointSource message;
+  message.operation = PointSource::CHANGE;
+  message.id = "lamp";
+  message.position.y = 2.0;
+  message.strength = -3.0;
+  const auto command = toCommand(message);
+  ASSERT_TRUE(command);
+  EXPECT_EQ(command->kind, simulation::StimulusKind::point_source);
+  EXPECT_EQ(command->operation, simulation::StimulusOperation::change);
+  EXPECT_EQ(command->id, "lamp");
+  EXPECT_EQ(command->vector, rod::Vector3(0.0, 2.0, 0.0));
+  EXPECT_EQ(command->strength, -3.0);
+}
+
+TEST(Command, NeedsAKnownOperation) {
+  PointSource lamp;
+  LightDirection light;
+  for (const int operation : {0, 4, 255}) {
+    lamp.operation = light.operation = static_cast<std::uint8_t>(operation);
+    EXPECT_FALSE(toCommand(lamp)) << operation;
+    EXPECT_FALSE(toCommand(light)) << operation;
+  }
+}
+
+TEST(Command, ThatRemovesIgnoresTheNumbers) {
+  LightDirection message;
+  message.operation = LightDirection::REMOVE;
+  message.id = "sun";
+  message.towards.x = message.strength = std::nan("");
+  const auto command = toCommand(message);
+  ASSERT_TRUE(command);
+  EXPECT_TRUE(command->vector.allFinite());
+  EXPECT_TRUE(std::isfinite(command->strength));
+}
+
+TEST(Command, OfStandardTypes) {
+  geometry_msgs::PointStamped click;
+  click.point.z = 1.0;
+  EXPECT_EQ(toCommand(click).id, "clicked");
+  EXPECT_EQ(toCommand(click).kind, simulation::StimulusKind::point_source);
+  EXPECT_EQ(toCommand(click).vector, rod::Vector3(0.0, 0.0, 1.0));
+  geometry_msgs::Vector3Stamped sun;
+  sun.vector.x = 4.0;
+  EXPECT_EQ(toCommand(sun).id, "sun");
+  EXPECT_EQ(toCommand(sun).kind, simulation::StimulusKind::light_direction);
+  EXPECT_EQ(toCommand(sun).vector, rod::Vector3(4.0, 0.0, 0.0));
+}
+
+TEST(StimuliMessage, ListsWhatIsInForce) {
+  auto snapshot = testing::snapshotOf("stem");
+  snapshot->environment.point_sources.push_back({"lamp", {1.0, 0.0, 0.0}, 2.0});
+  snapshot->environment.light_directions.push_back({"sun", {0.0, 0.0, 1.0}, 0.5});
+  const Stimuli message = toStimuli(*snapshot, "world");
+  ASSERT_THAT(message.point_sources, SizeIs(1));
+  ASSERT_THAT(message.light_directions, SizeIs(1));
+  EXPECT_EQ(message.point_sources[0].id, "lamp");
+  EXPECT_EQ(message.point_sources[0].position.x, 1.0);
+  EXPECT_EQ(message.point_sources[0].strength, 2.0);
+  EXPECT_EQ(message.light_directions[0].towards.z, 1.0);
+}
+
+}  // namespace
+}  // namespace sensory_growth::node

@@ -1,0 +1,57 @@
+/// Two nodes on one ROS system keep out of each other's way.
+
+#include <gtest/gtest.h>
+#include <ros/master.h>
+
+#include <map>
+#include <set>
+
+#include "ros/node_under_test.h"
+
+namespace sensory_growth::node::testing {
+namespace {
+
+TEST(Namespaces, EachNodeHearsAndMovesAlone) {
+  NodeUnderTest a("/a/sensory_growth"), b("/b/sensory_growth");
+  ros::Publisher lamps = a.handle().advertise<PointSource>("point_source", 10);
+  EXPECT_TRUE(a.send(lamps, lamp(PointSource::ADD, "lamp", {0.1, 0.0, 0.1})).accepted);
+  a.stepTo(5, 0);
+  EXPECT_EQ(b.stepTo(2, 0).step_index, 2u);
+  EXPECT_EQ(b.appliedCount(), 0u);
+}
+
+TEST(Namespaces, StampsOfTheWallClockIncrease) {
+  NodeUnderTest a("/a/sensory_growth");
+  ros::Time last;
+  for (int i = 0; i < 20; ++i) {
+    const Step::Response response = a.step(1);
+    ASSERT_TRUE(response.success);
+    EXPECT_GT(response.stamp, last);
+    last = response.stamp;
+  }
+}
+
+TEST(Namespaces, RemappedTopicsWork) {
+  NodeUnderTest b("/b/sensory_growth");
+  ros::NodeHandle absolute;
+  ros::Publisher lamps = absolute.advertise<PointSource>("/lamps_of_b", 10);  // see namespaces.test
+  EXPECT_EQ(b.send(lamps, lamp(PointSource::ADD, "remapped", {0.1, 0.0, 0.1})).id, "remapped");
+}
+
+TEST(Namespaces, OnlySharedTopicsHaveSeveralPublishers) {
+  NodeUnderTest a("/a/sensory_growth"), b("/b/sensory_growth");
+  const std::set<std::string> shared = {"/rosout", "/tf", "/tf_static", "/diagnostics"};
+  XmlRpc::XmlRpcValue request, response, state;
+  request[0] = ros::this_node::getName();
+  ASSERT_TRUE(ros::master::execute("getSystemState", request, response, state, false));
+  XmlRpc::XmlRpcValue& publishers = state[0];
+  for (int i = 0; i < publishers.size(); ++i) {
+    const std::string topic = publishers[i][0];
+    if (shared.count(topic)) continue;
+    EXPECT_LE(publishers[i][1].size(), 1) << topic;
+    EXPECT_NE(topic, "/clock");
+  }
+}
+
+}  // namespace
+}  // namespace sensory_growth::node::testing

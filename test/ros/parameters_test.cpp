@@ -1,0 +1,108 @@
+#include "sensory_growth/ros/parameters.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace sensory_growth::node {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+using XmlRpc::XmlRpcValue;
+
+XmlRpcValue minimal() {
+  XmlRpcValue tree;
+  tree["scenario"] = "/some/where.yaml";
+  tree["growth_time_scale"] = 60;
+  return tree;
+}
+
+TEST(Parameters, TakesWhatIsGivenAndKeepsDefaults) {
+  XmlRpcValue tree = minimal();
+  tree["real_time_factor"] = 2.5;
+  tree["marker_style"] = "line";
+  tree["start_paused"] = true;
+  const ParameterReading reading = readParameters(tree);
+  EXPECT_THAT(reading.problems, IsEmpty());
+  EXPECT_EQ(reading.parameters.scenario, "/some/where.yaml");
+  EXPECT_EQ(reading.parameters.growth_time_scale, 60.0);
+  EXPECT_EQ(reading.parameters.real_time_factor, 2.5);
+  EXPECT_EQ(reading.parameters.marker_style, MarkerShape::line);
+  EXPECT_TRUE(reading.parameters.start_paused);
+  EXPECT_EQ(reading.parameters.world_frame, "world");
+}
+
+TEST(Parameters, ListsEverythingThatIsMissing) {
+  XmlRpcValue empty;
+  empty.begin();
+  EXPECT_THAT(readParameters(empty).problems, ElementsAre("~scenario is required and was not given",
+                                                          "~growth_time_scale is required and was not given"));
+}
+
+TEST(Parameters, ListsAllProblemsAtOnce) {
+  XmlRpcValue tree = minimal();
+  tree["start_paused"] = 1;
+  tree["marker_rate"] = 0.0;
+  tree["marker_colour"] = "curvature";
+  EXPECT_THAT(
+      readParameters(tree).problems,
+      ElementsAre("~start_paused is 1; it must be true or false", "~marker_rate is 0; it must be from 0.1 to 100",
+                  "~marker_colour is not a parameter of this node; did you mean ~marker_color?"));
+}
+
+struct BadCase {
+  const char* key;
+  XmlRpcValue value;
+  const char* message;
+};
+
+class BadParameter : public ::testing::TestWithParam<BadCase> {};
+
+TEST_P(BadParameter, IsRefusedByName) {
+  XmlRpcValue tree = minimal();
+  tree[GetParam().key] = GetParam().value;
+  const ParameterReading reading = readParameters(tree);
+  ASSERT_THAT(reading.problems, SizeIs(1));
+  EXPECT_THAT(reading.problems.front(), HasSubstr(std::string("~") + GetParam().key + " "));
+  EXPECT_THAT(reading.problems.front(), HasSubstr(GetParam().message));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, BadParameter,
+    ::testing::Values(
+        BadCase{"scenario", 3, "must be text"}, BadCase{"scenario", "", "is empty"},
+        BadCase{"growth_time_scale", "fast", "must be a number"}, BadCase{"growth_time_scale", 0, "must be from 1e-09"},
+        BadCase{"growth_time_scale", std::numeric_limits<double>::quiet_NaN(), "is nan; it must be finite"},
+        BadCase{"real_time_factor", std::numeric_limits<double>::infinity(), "is inf; it must be finite"},
+        BadCase{"real_time_factor", -1.0, "must be from 0"}, BadCase{"real_time_factor", 1e-9, "is below 1e-6"},
+        BadCase{"stations", 101, "must be from 0 to 100"}, BadCase{"stations", 2.5, "must be a whole number"},
+        BadCase{"clock_mode", "sundial", "must be one of publish, wall"},
+        BadCase{"clock_mode", "follow", "not implemented"},
+        BadCase{"marker_color", 7, "must be one of curvature, growth_rate, stretch, none"},
+        BadCase{"world_frame", "/map", "must not begin with a slash"}, BadCase{"world_frame", "", "is empty"},
+        BadCase{"recording_compression", "zip", "must be one of none, lz4, bz2"}),
+    [](const auto& tested) { return std::string(tested.param.key) + "_" + std::to_string(tested.index); });
+
+TEST(Parameters, RecordingNeedsADirectory) {
+  XmlRpcValue tree = minimal();
+  tree["record"] = true;
+  EXPECT_THAT(readParameters(tree).problems, ElementsAre("~recording_directory is required because ~record is true"));
+}
+
+TEST(Parameters, AreWrittenToTheLastDigit) {
+  Parameters parameters;
+  parameters.scenario = "it's here.yaml";
+  parameters.growth_time_scale = 0.1;
+  const std::string yaml = toYaml(parameters);
+  EXPECT_THAT(yaml, HasSubstr("scenario: 'it''s here.yaml'\n"));
+  EXPECT_THAT(yaml, HasSubstr("growth_time_scale: 0.10000000000000001\n"));
+  EXPECT_THAT(yaml, HasSubstr("clock_mode: publish\n"));
+  EXPECT_THAT(yaml, HasSubstr("record: false\n"));
+}
+
+}  // namespace
+}  // namespace sensory_growth::node

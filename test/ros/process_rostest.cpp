@@ -1,0 +1,145 @@
+/// The node as a process: what it refuses to start with, and how it ends.
+
+#include <gtest/gtest.h>
+#include <rosgraph_msgs/Clock.h>
+#include <std_msgs/String.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <future>
+
+#include "ros/bag_contents.h"
+#include "ros/child_process.h"
+#include "ros/node_under_test.h"
+
+namespace sensory_growth::node::testing {
+namespace {
+
+using namespace std::chrono_literals;
+
+class Process : public ::testing::Test {
+ protected:
+  Process() : directory_(std::filesystem::temp_directory_path() / ("process_" + std::to_string(getpid()))) {
+    std::filesystem::create_directory(directory_);
+    name_ = "/child_" + std::to_string(++started_);  // a name of its own: the master forgets a killed node late
+    set("scenario", scenarioFile());
+    set("growth_time_scale", 60.0);
+    set("recording_directory", directory_.string());
+  }
+
+  ~Process() override {
+    ros::param::del(name_);
+    std::filesystem::remove_all(directory_);
+  }
+
+  template <typename Value>
+  void set(const std::string& parameter, const Value& value) {
+    ros::param::set(name_ + "/" + parameter, value);
+  }
+
+  ChildProcess start() {
+    return ChildProcess({NODE_EXECUTABLE, "__name:=" + name_.substr(1)}, directory_ / "output.txt");
+  }
+
+  void expectRefusal(const std::vector<std::string>& messages) {
+    ChildProcess child = start();
+    EXPECT_EQ(child.waitForExit(kPatience), 1);
+    for (const std::string& message : messages) {
+      EXPECT_NE(child.printed().find(message), std::string::npos) << message << " is not in\n" << child.printed();
+    }
+  }
+
+  static int started_;
+  const std::filesystem::path directory_;
+  std::string name_;
+};
+
+int Process::started_ = 0;
+
+TEST_F(Process, ListsAllParameterErrorsAndExitsNonZero) {
+  ros::param::del(name_ + "/growth_time_scale");
+  set("marker_rate", -1.0);
+  set("start_paused", "yes");
+  set("real_time_facto", 1.0);
+  expectRefusal({"~growth_time_scale is required", "~marker_rate is -1; it must be from 0.1 to 100",
+                 "~start_paused is 'yes'; it must be true or false",
+                 "~real_time_facto is not a parameter of this node; did you mean ~real_time_factor?"});
+}
+
+TEST_F(Process, ListsScenarioAndParameterErrorsTogether) {
+  set("scenario", std::string("/nowhere/at_all.yaml"));
+  set("stations", -1);
+  expectRefusal({"'/nowhere/at_all.yaml', which cannot be read", "~stations is -1"});
+}
+
+TEST_F(Process, RefusesAStepThatIsTooLongForRosTime) {
+  set("growth_time_scale", 30.0);
+  expectRefusal({"takes 2 s of ROS time", "asks for a scale from 60"});
+}
+
+TEST_F(Process, RefusesAnotherOwnerOfTheClock) {
+  ros::NodeHandle node;
+  ros::Publisher clock = node.advertise<rosgraph_msgs::Clock>("/clock", 1);
+  expectRefusal({"publishes /clock already"});
+}
+
+TEST_F(Process, RefusesWallTimeWhenSimulatedTimeIsInUse) {
+  set("clock_mode", "wall");
+  expectRefusal({"needs /use_sim_time to be false"});
+}
+
+TEST_F(Process, InterruptedWhileRunningLeavesAClosedBag) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const std::string file = "interrupted_" + std::to_string(signal) + ".bag";
+    set("record", true);
+    set("recording_file", file);
+    set("real_time_factor", 50.0);
+    ChildProcess child = start();
+    {
+      NodeUnderTest node(name_);
+      node.waitForStatus("some steps", [](const Status& s) { return s.step_index >= 20; });
+    }
+    child.signal(signal);
+    EXPECT_EQ(child.waitForExit(5s), 0) << child.printed();
+
+    const std::filesystem::path path = directory_ / file;
+    ASSERT_TRUE(std::filesystem::exists(path)) << child.printed();
+    EXPECT_FALSE(std::filesystem::exists(path.string() + ".active"));
+    const rosbag::Bag bag(path.string());  // throws unless closed and indexed
+    EXPECT_EQ(readTopic<std_msgs::String>(bag, name_ + "/scenario").size(), 1u);
+    const auto states = readTopic<OrganState>(bag, name_ + "/organs/shoot/state");
+    ASSERT_GE(states.size(), 21u);
+    for (std::size_t step = 0; step < states.size(); ++step) EXPECT_EQ(states[step].step_index, step);
+  }
+}
+
+TEST_F(Process, InterruptedWhileAServiceWaitsAnswersIt) {
+  set("start_paused", true);
+  ChildProcess child = start();
+  {
+    NodeUnderTest node(name_);
+    auto waiting = std::async(std::launch::async, [&] {
+      Step step;
+      step.request.steps = 1000000;
+      return ros::service::call(name_ + "/step", step) && step.response.success;
+    });
+    node.waitForStatus("a step", [](const Status& s) { return s.step_index >= 1; });
+    child.signal(SIGINT);
+    EXPECT_EQ(child.waitForExit(5s), 0) << child.printed();
+    EXPECT_FALSE(waiting.get());
+  }
+}
+
+TEST_F(Process, EndsByItselfWhenFinished) {
+  set("exit_when_finished", true);
+  set("record", true);
+  set("recording_file", std::string("whole.bag"));
+  set("real_time_factor", 0.0);
+  ChildProcess child = start();
+  EXPECT_EQ(child.waitForExit(60s), 0) << child.printed();
+  const rosbag::Bag bag((directory_ / "whole.bag").string());
+  EXPECT_EQ(readTopic<OrganState>(bag, name_ + "/organs/shoot/state").size(), 241u);  // 4 h of 1 min, and the start
+}
+
+}  // namespace
+}  // namespace sensory_growth::node::testing

@@ -1,0 +1,11 @@
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+
+int main(int argc, char** argv) {
+  ::testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "test");
+  const ros::NodeHandle keeps_the_node_alive;
+  ros::AsyncSpinner spinner(2);
+  spinner.start();
+  return RUN_ALL_TESTS();
+}

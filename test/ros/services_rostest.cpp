@@ -1,0 +1,135 @@
+/// Services answer after their effect is visible, and say why when they refuse.
+
+#include <gtest/gtest.h>
+#include <rosgraph_msgs/Clock.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <future>
+
+#include "ros/node_under_test.h"
+
+namespace sensory_growth::node::testing {
+namespace {
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+class Services : public ::testing::Test {
+ protected:
+  /// Each test begins paused at step 0.
+  Services() {
+    EXPECT_TRUE(node_.command("pause").success);
+    EXPECT_TRUE(node_.command("reset").success);
+  }
+
+  NodeUnderTest node_;
+};
+
+TEST_F(Services, StepAdvancesExactlyAndTimeWithIt) {
+  const Step::Response first = node_.step(1);
+  ASSERT_TRUE(first.success) << first.message;
+  EXPECT_EQ(first.step_index, 1u);
+  const Step::Response more = node_.step(9);
+  EXPECT_EQ(more.step_index, 10u);
+  EXPECT_EQ(more.stamp - first.stamp, ros::Duration(9.0));  // a step of 60 s at a scale of 60
+  const OrganState state = node_.state(10);
+  EXPECT_EQ(state.header.stamp, more.stamp);
+  EXPECT_EQ(state.growth_time, 600.0);
+}
+
+TEST_F(Services, StepRefusesWithAReason) {
+  const Step::Response none = node_.step(0);
+  EXPECT_FALSE(none.success);
+  EXPECT_TRUE(contains(none.message, "from 1 to 1000000")) << none.message;
+  const Step::Response many = node_.step(1000001);
+  EXPECT_FALSE(many.success);
+  EXPECT_TRUE(contains(many.message, "1000001")) << many.message;
+  ASSERT_TRUE(node_.command("resume").success);
+  const Step::Response running = node_.step(1);
+  EXPECT_FALSE(running.success);
+  EXPECT_TRUE(contains(running.message, "pause it first")) << running.message;
+}
+
+TEST_F(Services, ResetGoesBackToStepZeroWhileTimeGoesOn) {
+  const Step::Response before = node_.step(5);
+  const auto reset = node_.command("reset");
+  ASSERT_TRUE(reset.success);
+  EXPECT_EQ(reset.step_index, 0u);
+  EXPECT_GT(reset.stamp, before.stamp);
+  const Step::Response after = node_.step(1);
+  EXPECT_EQ(after.step_index, 1u);
+  EXPECT_GT(after.stamp, reset.stamp);
+}
+
+TEST_F(Services, ResumeRunsAndPauseStops) {
+  ASSERT_TRUE(node_.command("resume").success);
+  node_.waitForStatus("running", [](const Status& s) { return s.mode == Status::RUNNING && s.step_index >= 3; });
+  const auto paused = node_.command("pause");
+  ASSERT_TRUE(paused.success);
+  EXPECT_GE(paused.step_index, 3u);
+  node_.waitForStatus("paused",
+                      [&](const Status& s) { return s.mode == Status::PAUSED && s.step_index == paused.step_index; });
+  EXPECT_EQ(node_.step(1).step_index, paused.step_index + 1);  // nothing moved in between
+}
+
+TEST_F(Services, PauseAndResetAbortALongStep) {
+  for (const char* aborting : {"pause", "reset"}) {
+    auto long_step = std::async(std::launch::async, [this] { return node_.step(1000000); });
+    node_.waitForStatus("a step", [](const Status& s) { return s.step_index >= 1; });
+    ASSERT_TRUE(node_.command(aborting).success);
+    const Step::Response aborted = long_step.get();
+    EXPECT_FALSE(aborted.success);
+    EXPECT_TRUE(contains(aborted.message, std::string("aborted by ") + aborting)) << aborted.message;
+    ASSERT_TRUE(node_.command("reset").success);
+    node_.waitForStatus("reset", [](const Status& s) { return s.step_index == 0; });
+  }
+}
+
+TEST_F(Services, FinishedAllowsStepsAndResetButNotResume) {
+  ASSERT_TRUE(node_.step(240).success);  // 4 h
+  node_.waitForStatus("the end", [](const Status& s) { return s.mode == Status::FINISHED && s.step_index == 240; });
+  const auto resume = node_.command("resume");
+  EXPECT_FALSE(resume.success);
+  EXPECT_TRUE(contains(resume.message, "reset first")) << resume.message;
+  EXPECT_EQ(node_.step(1).step_index, 241u);
+  EXPECT_TRUE(node_.command("reset").success);
+  EXPECT_TRUE(node_.command("resume").success);
+}
+
+TEST_F(Services, RecordingRefusesNamesThatLeaveItsDirectory) {
+  for (const char* file : {"../escape.bag", "/tmp/escape.bag", "no_extension"}) {
+    StartRecording::Request request;
+    request.file = file;
+    const auto response = node_.call<StartRecording>("start_recording", request);
+    EXPECT_FALSE(response.success) << file;
+    EXPECT_TRUE(contains(response.message, file)) << response.message;
+  }
+  const auto stop = node_.call<StopRecording>("stop_recording");
+  EXPECT_FALSE(stop.success);
+  EXPECT_EQ(stop.message, "nothing is being recorded");
+}
+
+TEST_F(Services, OneRecordingAtATime) {
+  StartRecording::Request request;
+  request.file = "once_" + std::to_string(getpid()) + ".bag";
+  ASSERT_TRUE(node_.call<StartRecording>("start_recording", request).success);
+  const auto again = node_.call<StartRecording>("start_recording");
+  EXPECT_FALSE(again.success);
+  EXPECT_TRUE(contains(again.message, "already recording")) << again.message;
+  const auto stopped = node_.call<StopRecording>("stop_recording");
+  EXPECT_TRUE(stopped.success) << stopped.message;
+  std::filesystem::remove(stopped.path);
+}
+
+TEST_F(Services, ClockIsKeptAliveWhilePausedAndNeverZero) {
+  const ros::Time stamp = node_.step(1).stamp;
+  ros::NodeHandle absolute;
+  for (int i = 0; i < 3; ++i) {  // a new subscription each time: whoever comes late gets the time
+    const auto clock = ros::topic::waitForMessage<rosgraph_msgs::Clock>("/clock", absolute);
+    ASSERT_TRUE(clock);
+    EXPECT_EQ(clock->clock, stamp);
+  }
+}
+
+}  // namespace
+}  // namespace sensory_growth::node::testing
