@@ -140,6 +140,7 @@ OrganState toMessage(const OrganSnapshot& organ, const Snapshot& snapshot, const
   message.header = makeHeader(snapshot, frame);
   message.organ = organ.id;
   message.step_index = snapshot.step_index;
+  message.epoch = snapshot.epoch;
   message.growth_time = snapshot.growth_time;
 
   message.positions.reserve(rod.vertices.size());
@@ -176,6 +177,7 @@ Stimuli toStimuli(const Snapshot& snapshot, const std::string& frame) {
   Stimuli message;
   message.header = makeHeader(snapshot, frame);
   message.step_index = snapshot.step_index;
+  message.epoch = snapshot.epoch;
   for (const growth::PointSource& source : snapshot.environment.point_sources) {
     PointSource& lamp = message.point_sources.emplace_back();
     lamp.header = message.header;
@@ -200,6 +202,7 @@ AppliedStimulus toMessage(const simulation::AppliedStimulus& stimulus, const Sna
   AppliedStimulus message;
   message.header = makeHeader(snapshot, frame);
   message.step_index = stimulus.step;
+  message.epoch = snapshot.epoch;
   message.kind = toConstant(stimulus.command.kind);
   message.operation = toConstant(stimulus.command.operation);
   message.id = stimulus.command.id;

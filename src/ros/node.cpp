@@ -130,7 +130,8 @@ Node::Node(const Parameters& parameters, LoadedScenario loaded)
     std::filesystem::create_directories(parameters_.recording_directory);
   }
   if (parameters_.record) {
-    if (const auto refusal = publishers_.startRecording("", *loop_.snapshot())) throw std::runtime_error(*refusal);
+    if (const auto refusal = publishers_.startRecording(parameters_.recording_file, *loop_.snapshot()))
+      throw std::runtime_error(*refusal);
     ROS_INFO_STREAM_NAMED(names::kLogRecording, "recording " << publishers_.recordingPath());
   }
   diagnostics_ = std::make_unique<Diagnostics>(

@@ -35,8 +35,7 @@ void visit(Parameters& p, Visitor& parameter) {
   parameter.text("world_frame", p.world_frame);
   parameter.text("frame_prefix", p.frame_prefix);
   parameter.count("stations", p.stations, {0, 100});
-  parameter.choice("clock_mode", p.clock_mode,
-                   {{"publish", ClockMode::publish}, {"wall", ClockMode::wall}, {"follow", ClockMode::follow}});
+  parameter.choice("clock_mode", p.clock_mode, {{"publish", ClockMode::publish}, {"wall", ClockMode::wall}});
   parameter.number("clock_rate", p.clock_rate, {1.0, 1e5});
   parameter.number("growth_time_scale", p.growth_time_scale, {kTiny, kHuge}, Need::required);
   parameter.number("real_time_factor", p.real_time_factor, {0.0, kHuge});
@@ -191,9 +190,6 @@ class Writer {
 bool startsWithSlash(const std::string& frame) { return !frame.empty() && frame.front() == '/'; }
 
 void checkTogether(const Parameters& p, Reader& reader) {
-  if (p.clock_mode == ClockMode::follow) {
-    reader.problem("clock_mode", "is 'follow', which is not implemented yet; it must be one of publish, wall");
-  }
   if (p.real_time_factor > 0.0 && p.real_time_factor < kLowestRealTimeFactor) {
     reader.problem("real_time_factor", "is below 1e-6 but not 0; at 0 the simulation runs as fast as it can");
   }

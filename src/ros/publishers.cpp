@@ -55,7 +55,7 @@ Publishers::Publishers(const Parameters& parameters, const Sources& sources, con
   applied_ = advertise<AppliedStimulus>(names::kAppliedStimuli, kQueue, false);
   scenario_ = advertise<std_msgs::String>(names::kScenario, 1, true);
   parameter_text_ = advertise<std_msgs::String>(names::kParameters, 1, true);
-  markers_ = advertise<visualization_msgs::MarkerArray>(names::kMarkers, 2, true);
+  markers_ = advertise<visualization_msgs::MarkerArray>(names::kMarkers, 10, true);
   for (const std::string& organ : sources_.organs) {
     states_[organ] =
         advertise<OrganState>(std::string(names::kOrgans) + "/" + organ + "/" + names::kState, kQueue, true);
@@ -129,7 +129,7 @@ void Publishers::showMarkers(const SnapshotPtr& snapshot) {
 std::optional<std::string> Publishers::startRecording(const std::string& file, const Snapshot& snapshot) {
   if (recording_) return "already recording " + recording_->path();
   try {
-    const std::string path = node::recordingPath(parameters_.recording_directory, file.empty() ? defaultFile() : file);
+    const std::string path = node::recordingPath(parameters_.recording_directory, file.empty() ? datedFile() : file);
     setRecording(std::make_unique<Recording>(
         path, RecordingSettings{parameters_.recording_compression, parameters_.recording_minimum_free_space,
                                 ros::this_node::getName()}));
@@ -212,8 +212,7 @@ void Publishers::setRecording(std::unique_ptr<Recording> recording) {
   recording_path_ = recording_ ? recording_->path() : "";
 }
 
-std::string Publishers::defaultFile() const {
-  if (!parameters_.recording_file.empty()) return parameters_.recording_file;
+std::string Publishers::datedFile() const {
   const std::time_t now = std::time(nullptr);
   std::tm local{};
   localtime_r(&now, &local);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr char kExtension[] = ".bag";
 constexpr char kActive[] = ".active";
-constexpr std::size_t kMostQueued = 4096;             // messages
+constexpr std::size_t kMostQueued = 64;               // messages; what waits must be on disk soon after Ctrl-C
 constexpr std::uint64_t kSpaceCheckInterval = 100;    // messages
 constexpr std::uint32_t kChunkThreshold = 64 * 1024;  // small, so that little is lost if the process is killed [byte]
 

@@ -8,6 +8,7 @@ Signals::Signals() {
   sigemptyset(&set_);
   sigaddset(&set_, SIGINT);
   sigaddset(&set_, SIGTERM);
+  sigaddset(&set_, SIGHUP);  // the terminal is gone
   pthread_sigmask(SIG_BLOCK, &set_, nullptr);
 }
 

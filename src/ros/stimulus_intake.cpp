@@ -20,6 +20,7 @@ using std::chrono::steady_clock;
 constexpr std::uint32_t kQueue = 100;
 constexpr std::size_t kMostWaiting = 64;
 constexpr std::chrono::seconds kPatience{1};  // for a transform; wall time, as ROS time may stand still
+constexpr double kTransformMemory = 600.0;    // [s] of ROS time, which may pass much faster than wall time
 constexpr double kRetryInterval = 0.05;       // [s]
 
 std::string describe(const StimulusCommand& command) {
@@ -34,6 +35,7 @@ StimulusIntake::StimulusIntake(ros::NodeHandle node, ros::NodeHandle private_nod
       counters_(counters),
       outputs_(std::move(outputs)),
       warnings_(std::chrono::seconds(1)),
+      transforms_(ros::Duration(kTransformMemory)),
       listener_(transforms_) {
   const auto subscribe = [this](ros::NodeHandle& from, const char* topic, auto message) {
     using Message = decltype(message);
@@ -71,7 +73,7 @@ void StimulusIntake::drain() {
     std::string why_not;
     if (held_up.count(key)) {
       still_waiting.push_back(waiting);
-    } else if (toWorld(waiting.header, command, why_not)) {
+    } else if (toWorld(waiting, command, why_not)) {
       if (!outputs_.send(command)) {
         refuse(StimulusFate::too_many_waiting, describe(command) + ": too many stimuli wait for the next step");
       }
@@ -85,12 +87,25 @@ void StimulusIntake::drain() {
   waiting_.swap(still_waiting);
 }
 
-bool StimulusIntake::toWorld(const std_msgs::Header& header, StimulusCommand& command, std::string& why_not) const {
+geometry_msgs::TransformStamped StimulusIntake::transformOf(const std_msgs::Header& header, bool is_overdue) const {
+  try {
+    return transforms_.lookupTransform(world_frame_, header.frame_id, header.stamp);
+  } catch (const tf2::TransformException&) {
+    if (!is_overdue) throw;
+    // Nothing is sent on tf while a simulation is paused: what moved last still stands there.
+    const auto latest = transforms_.lookupTransform(world_frame_, header.frame_id, ros::Time(0));
+    if (latest.header.stamp > header.stamp) throw;
+    return latest;
+  }
+}
+
+bool StimulusIntake::toWorld(const Waiting& waiting, StimulusCommand& command, std::string& why_not) const {
+  const std_msgs::Header& header = waiting.header;
   if (command.operation == StimulusOperation::remove) return true;
   if (header.frame_id.empty() || header.frame_id == world_frame_) return true;
   geometry_msgs::TransformStamped transform;
   try {
-    transform = transforms_.lookupTransform(world_frame_, header.frame_id, header.stamp);
+    transform = transformOf(header, steady_clock::now() >= waiting.deadline);
   } catch (const tf2::TransformException& error) {
     why_not = error.what();
     return false;

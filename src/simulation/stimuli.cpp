@@ -25,6 +25,9 @@ std::optional<std::string> applyTo(std::vector<Stimulus>& stimuli, const Stimulu
   if (!exists && command.operation != StimulusOperation::add) {
     return std::string("there is no ") + name(command.kind) + " '" + command.id + "' to " + name(command.operation);
   }
+  if (!exists && stimuli.size() == kMostStimuli) {
+    return "there are " + std::to_string(kMostStimuli) + " " + name(command.kind) + "s already; remove one first";
+  }
   if (command.operation == StimulusOperation::remove) {
     stimuli.erase(found);
   } else if (exists) {

@@ -61,6 +61,12 @@ TEST(Frames, AStimulusOfAFrameOfTheOrganWorksWhilePaused) {
   above_tip.header.frame_id = "shoot/tip";
   const AppliedStimulus applied = node.send(lamps, above_tip);
   EXPECT_NEAR(applied.vector.z, 0.04, 1e-6);  // the organ is 30 mm long, less what its weight compresses
+
+  // Stamped later than anything on tf, as by a node on wall time: what stood there last still does.
+  above_tip.id = "later";
+  const Status status = node.waitForStatus("status", [](const Status&) { return true; });
+  above_tip.header.stamp = status.header.stamp + ros::Duration(100.0);
+  EXPECT_NEAR(node.send(lamps, above_tip).vector.z, 0.04, 1e-6);
 }
 
 TEST(Frames, AnUnknownFrameIsRefusedWithoutHoldingUpOthers) {

@@ -81,7 +81,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCase{"real_time_factor", -1.0, "must be from 0"}, BadCase{"real_time_factor", 1e-9, "is below 1e-6"},
         BadCase{"stations", 101, "must be from 0 to 100"}, BadCase{"stations", 2.5, "must be a whole number"},
         BadCase{"clock_mode", "sundial", "must be one of publish, wall"},
-        BadCase{"clock_mode", "follow", "not implemented"},
+        BadCase{"clock_mode", "follow", "publish, wall"},
         BadCase{"marker_color", 7, "must be one of curvature, growth_rate, stretch, none"},
         BadCase{"world_frame", "/map", "must not begin with a slash"}, BadCase{"world_frame", "", "is empty"},
         BadCase{"recording_compression", "zip", "must be one of none, lz4, bz2"}),

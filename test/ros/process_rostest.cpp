@@ -25,6 +25,7 @@ class Process : public ::testing::Test {
     set("scenario", scenarioFile());
     set("growth_time_scale", 60.0);
     set("recording_directory", directory_.string());
+    set("recording_minimum_free_space", 0.0);
   }
 
   ~Process() override {
@@ -113,7 +114,25 @@ TEST_F(Process, InterruptedWhileRunningLeavesAClosedBag) {
   }
 }
 
+TEST_F(Process, InterruptedWhileTheBagLagsBehindLeavesItClosed) {
+  set("scenario", ros::param::param<std::string>("/slow_scenario", ""));
+  set("record", true);
+  set("recording_file", std::string("lagging.bag"));
+  set("recording_compression", std::string("bz2"));  // far slower than the simulation
+  set("real_time_factor", 0.0);
+  ChildProcess child = start();
+  {
+    NodeUnderTest node(name_);
+    node.waitForStatus("a full queue", [](const Status& s) { return s.step_index >= 100; });
+  }
+  child.signal(SIGHUP);
+  EXPECT_EQ(child.waitForExit(5s), 0) << child.printed();
+  const rosbag::Bag bag((directory_ / "lagging.bag").string());
+  EXPECT_GE(readTopic<OrganState>(bag, name_ + "/organs/shoot/state").size(), 101u);
+}
+
 TEST_F(Process, InterruptedWhileAServiceWaitsAnswersIt) {
+  set("scenario", ros::param::param<std::string>("/slow_scenario", ""));  // one that can be stepped for ever
   set("start_paused", true);
   ChildProcess child = start();
   {

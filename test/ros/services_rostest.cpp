@@ -20,6 +20,8 @@ class Services : public ::testing::Test {
   Services() {
     EXPECT_TRUE(node_.command("pause").success);
     EXPECT_TRUE(node_.command("reset").success);
+    // What was latched by the test before must not be mistaken for progress in this one.
+    node_.waitForStatus("step 0", [](const Status& s) { return s.mode == Status::PAUSED && s.step_index == 0; });
   }
 
   NodeUnderTest node_;
@@ -74,6 +76,8 @@ TEST_F(Services, ResumeRunsAndPauseStops) {
 
 TEST_F(Services, PauseAndResetAbortALongStep) {
   for (const char* aborting : {"pause", "reset"}) {
+    ASSERT_TRUE(node_.command("reset").success);
+    node_.waitForStatus("reset", [](const Status& s) { return s.step_index == 0; });
     auto long_step = std::async(std::launch::async, [this] { return node_.step(1000000); });
     node_.waitForStatus("a step", [](const Status& s) { return s.step_index >= 1; });
     ASSERT_TRUE(node_.command(aborting).success);

@@ -94,6 +94,14 @@ TEST(Simulation, RefusesWhatMakesNoSenseAndChangesNothing) {
   expectSameBits(simulation, untouched);
 }
 
+TEST(Simulation, BoundsTheNumberOfStimuli) {
+  Simulation simulation(shoot());
+  for (int i = 0; i < 256; ++i) EXPECT_EQ(simulation.apply(lamp(std::to_string(i), {1, 0, 0})).refusal, "");
+  EXPECT_THAT(simulation.apply(lamp("one more", {1, 0, 0})).refusal, HasSubstr("256 point_sources already"));
+  EXPECT_EQ(simulation.apply(lamp("7", {2, 0, 0})).refusal, "");
+  EXPECT_EQ(simulation.environment().point_sources.size(), 256u);
+}
+
 TEST(Simulation, NormalisesLightDirections) {
   Simulation simulation(shoot());
   simulation.apply({StimulusKind::light_direction, StimulusOperation::add, "sun", {3.0, 0.0, 4.0}, 1.0});

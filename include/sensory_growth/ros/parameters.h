@@ -14,7 +14,6 @@ namespace sensory_growth::node {
 enum class ClockMode {
   publish,  ///< this node publishes /clock
   wall,     ///< nobody: ROS time is wall time
-  follow,   ///< a bag or another simulator; not implemented yet, refused
 };
 
 enum class MarkerShape { tube, line };

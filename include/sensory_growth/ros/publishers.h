@@ -82,7 +82,7 @@ class Publishers : public LoopListener {
   void recordMarkers(const Snapshot& snapshot);
   void dropFailedRecording();
   void setRecording(std::unique_ptr<Recording> recording);
-  std::string defaultFile() const;
+  std::string datedFile() const;
 
   const Parameters parameters_;
   const Sources sources_;

@@ -4,6 +4,7 @@
 /// counted and reported.
 
 #include <geometry_msgs/PointStamped.h>
+#include <geometry_msgs/TransformStamped.h>
 #include <geometry_msgs/Vector3Stamped.h>
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
@@ -47,7 +48,8 @@ class StimulusIntake {
 
   void receive(const std::optional<simulation::StimulusCommand>& command, const std_msgs::Header& header);
   void drain();
-  bool toWorld(const std_msgs::Header& header, simulation::StimulusCommand& command, std::string& why_not) const;
+  geometry_msgs::TransformStamped transformOf(const std_msgs::Header& header, bool is_overdue) const;
+  bool toWorld(const Waiting& waiting, simulation::StimulusCommand& command, std::string& why_not) const;
   void refuse(StimulusFate fate, const std::string& why);
 
   const std::string world_frame_;

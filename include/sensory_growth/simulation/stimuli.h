@@ -2,6 +2,7 @@
 
 /// The one typed path by which the stimuli of a simulation change.
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -21,6 +22,9 @@ enum class StimulusOperation {
 /// Largest magnitudes a command may hold; beyond them it is surely an error of unit or arithmetic.
 constexpr double kMaxPosition = 1e6;  ///< of each coordinate of a point source [m]
 constexpr double kMaxStrength = 1e3;  ///< [-]
+
+/// Most stimuli of one kind at a time: every organ senses each of them at every bend.
+constexpr std::size_t kMostStimuli = 256;
 
 /// One change of the stimuli, in the world frame.
 struct StimulusCommand {
