@@ -186,7 +186,7 @@ TEST(ScenarioYaml, AbsentKeysHaveTheirDocumentedDefaults) {
   const Scenario relaxed = loadScenario("../config/wheat_coleoptile.yaml");
   EXPECT_EQ(relaxed.relaxation, RelaxationMethod::statics);
   EXPECT_EQ(relaxed.relaxation_settings.tolerance, 1e-10);
-  EXPECT_EQ(relaxed.relaxation_settings.max_iterations, 200);
+  EXPECT_EQ(relaxed.relaxation_settings.max_iterations, 2000);
 }
 
 TEST(ScenarioYaml, BaseFrameIsTheMinimalRotationThenTheRoll) {

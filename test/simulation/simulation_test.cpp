@@ -371,6 +371,28 @@ TEST(Simulation, KinematicOrgansIgnoreTheirWeight) {
   EXPECT_NEAR(simulation.organs().front().rod().vertices.back().position.z(), 0.0, 1e-14);
 }
 
+TEST(Simulation, AnOrganThatSwingsAboutTheVerticalDoesNotFail) {
+  // Buckled under its weight, it grows against its sag and so prefers the other side ever again (docs/model.md 12.4).
+  Scenario scenario = kinematicScenario(0.05, 30);
+  scenario.relaxation = RelaxationMethod::statics;
+  scenario.weight = true;
+  scenario.gravity = -Vector3::UnitZ();
+  OrganScenario& organ = scenario.organs.front();
+  organ.base.frame = rod::Quaternion::Identity();
+  organ.length = 1.0;
+  organ.section = support::section(0.02, 1.0, 1.0);
+  organ.profile = growth::ApicalFlatProfile{1.0, 0.6};
+  organ.bending.sensitivities.gravity = 0.4 * 0.02;
+  organ.bending.proprioception_length = 0.4 * 0.02;
+  organ.longest_element = 0.1;
+  Simulation simulation(scenario);
+  for (int i = 0; i < 120; ++i) {
+    const StepReport report = simulation.step();
+    ASSERT_TRUE(report.ok) << report.message;
+  }
+  EXPECT_LT(simulation.organs().front().rod().vertices.back().position.z(), 0.0);  // it hangs
+}
+
 TEST(Simulation, AGrowingColumnBucklesUnderItsWeightAndSaysSo) {
   // Greenhill: B = w = 1 buckles at L = 7.8373^(1/3) = 1.98635; growing from 0.5 that is at time 1.379447 (V23).
   Scenario scenario = kinematicScenario(0.02, 100);

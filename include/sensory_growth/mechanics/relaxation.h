@@ -11,7 +11,7 @@ struct RelaxationSettings {
   /// On the scaled residual of model.md 12.4 [-]; below the round-off of n elements, 10 n epsilon, that takes its
   /// place.
   double tolerance = 1e-10;
-  int max_iterations = 200;                    ///< over all branches [-]
+  int max_iterations = 2000;                   ///< over all branches [-]
   int max_branch_switches = 4;                 ///< moves away from unstable equilibria [-]
   double max_rotation = 0.6;                   ///< largest turn of an element per iteration [rad]
   double max_bend_angle = 1.5707963267948966;  ///< larger turns between neighbours are refused as unresolved [rad]
