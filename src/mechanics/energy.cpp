@@ -5,6 +5,7 @@ namespace sensory_growth::mechanics {
 using rod::Vector3;
 
 Vector3 bendStiffness(const rod::Rod& rod, std::size_t bend) {
+  if (bend == 0 && rod.base_support != rod::BaseSupport::clamped) return Vector3::Zero();
   const auto compliance = [&](std::size_t e) -> Vector3 {
     return rod.elements[e].section.bendStiffness().cwiseInverse();
   };

@@ -3,7 +3,7 @@
 namespace sensory_growth::mechanics {
 
 rod::Vector3 vertexForce(const rod::Rod& rod, const Loads& loads, std::size_t vertex) {
-  rod::Vector3 force = rod.vertexMass(vertex) * loads.gravity;
+  rod::Vector3 force = rod.vertexMass(vertex) * loads.gravity + rod.vertexLength(vertex) * loads.line_force;
   if (vertex == rod.size()) force += loads.tip_force;
   return force;
 }

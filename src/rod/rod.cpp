@@ -30,6 +30,12 @@ double Rod::vertexMass(std::size_t vertex) const {
   return 0.5 * (below + above);
 }
 
+double Rod::vertexLength(std::size_t vertex) const {
+  const double below = vertex > 0 ? elements[vertex - 1].rest_length : 0.0;
+  const double above = vertex < size() ? elements[vertex].rest_length : 0.0;
+  return 0.5 * (below + above);
+}
+
 Quaternion Rod::bendFrame(std::size_t bend) const {
   const Quaternion& below = bend > 0 ? elements[bend - 1].frame : base.frame;
   return (below * exp(0.5 * voronoiLength(bend) * bends[bend].curvature)).normalized();

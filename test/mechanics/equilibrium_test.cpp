@@ -129,12 +129,16 @@ TEST(StaticEquilibrium, FindsTheRestShapeWithoutLoads) {
 TEST(StaticEquilibrium, TurnsRigidlyWithBaseAndLoads) {
   std::mt19937 generator(11);
   rod::Rod rod = support::randomRod(generator, 30);
-  Loads loads{{0.3, -0.2, -1.0}, {0.1, 0.4, -0.3}};
+  Loads loads;
+  loads.gravity = {0.3, -0.2, -1.0};
+  loads.tip_force = {0.1, 0.4, -0.3};
   const rod::Quaternion turn = rod::exp({0.7, -1.1, 0.4});
   rod::Rod turned = rod;
   turned.base = {turn * rod.base.position, turn * rod.base.frame};
   turned.rebuild();
-  const Loads turned_loads{turn * loads.gravity, turn * loads.tip_force};
+  Loads turned_loads;
+  turned_loads.gravity = turn * loads.gravity;
+  turned_loads.tip_force = turn * loads.tip_force;
 
   RelaxationSettings strict;
   strict.tolerance = 1e-13;

@@ -1,9 +1,10 @@
 #pragma once
 
-/// The state of one rod (model.md 1): a chain of n elements between n + 1 vertices, clamped at its base.
+/// The state of one rod (model.md 1): a chain of n elements between n + 1 vertices, held at its base.
 ///
 /// Element e joins vertices e and e + 1. Bend j >= 1 sits at vertex j between elements j - 1 and j; bend 0 joins the
-/// base frame to element 0 over half a cell, which keeps the clamp second order (model.md 1.4). Frames have the
+/// base frame to element 0 over half a cell, which keeps the clamp second order (model.md 1.4). Without a clamp bend 0
+/// has no stiffness and its curvature only says how element 0 stands to the base frame. Frames have the
 /// directors d1, d2, d3 as columns; d3 is the tangent of the unsheared rod and points from base to apex. "Rest" is the
 /// stress-free state with growth included. SI units; vectors called curvature and strain are components in the material
 /// frame.
@@ -21,6 +22,13 @@ namespace sensory_growth::rod {
 struct Pose {
   Vector3 position = Vector3::Zero();         ///< [m]
   Quaternion frame = Quaternion::Identity();  ///< columns are d1, d2, d3
+};
+
+/// How the rod is held at its base.
+enum class BaseSupport {
+  clamped,               ///< bend 0 joins the base frame to element 0 over half a cell: second order
+  frozen_first_element,  ///< element 0 has the base frame, as in classical codes: first order (model.md 1.4)
+  hinged,                ///< vertex 0 stays, element 0 turns freely
 };
 
 struct Element {
@@ -46,17 +54,19 @@ struct Vertex {
 
 /// The strains (curvature, strain) are the state; frames and positions follow from them and the base by rebuild().
 struct Rod {
-  Pose base;                      ///< the clamp, at vertex 0
+  Pose base;  ///< at vertex 0
+  BaseSupport base_support = BaseSupport::clamped;
   std::vector<Element> elements;  ///< n
   std::vector<Bend> bends;        ///< n
   std::vector<Vertex> vertices;   ///< n + 1
 
   std::size_t size() const { return elements.size(); }
 
-  double restLength() const;                     ///< rest arc length of the whole rod [m]
-  double length() const;                         ///< current length of the polyline [m]
-  double voronoiLength(std::size_t bend) const;  ///< rest length that bend answers for [m]
-  double vertexMass(std::size_t vertex) const;   ///< half the mass of each neighbouring element [kg]
+  double restLength() const;                      ///< rest arc length of the whole rod [m]
+  double length() const;                          ///< current length of the polyline [m]
+  double voronoiLength(std::size_t bend) const;   ///< rest length that bend answers for [m]
+  double vertexMass(std::size_t vertex) const;    ///< half the mass of each neighbouring element [kg]
+  double vertexLength(std::size_t vertex) const;  ///< half the rest length of each neighbouring element [m]
 
   /// Frame at bend j: half-way along the geodesic between its neighbours. Everything sensed at a bend uses this frame.
   Quaternion bendFrame(std::size_t bend) const;
