@@ -3,23 +3,22 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
-#include "sensory_growth/mechanics/block_tridiagonal.h"
-#include "sensory_growth/mechanics/reduced_energy.h"
+#include "reduced_energy.h"
 
 namespace sensory_growth::mechanics {
 namespace {
 
 using rod::Vector3;
+using Evaluation = ReducedEnergy::Evaluation;
 
 constexpr double kArmijo = 1e-4;
-constexpr double kUnstable = 1e-9;  // of B / L: eigenvalues below minus this are unstable, model.md 12.4
-constexpr double kEigenvalueTolerance = 1e-6;
+constexpr double kUnstable = 1e-9;     // of B / L: eigenvalues below minus this are unstable, model.md 12.4
 constexpr double kUnresolvable = 3.0;  // rad: near pi the rotation vector of a bend jumps
 
 bool isFinite(const rod::Rod& rod, const Loads& loads) {
-  bool finite = loads.gravity.allFinite() && loads.tip_force.allFinite() && rod.base.frame.coeffs().allFinite();
+  bool finite = loads.gravity.allFinite() && loads.tip_force.allFinite() && loads.line_force.allFinite() &&
+                loads.tip_couple.allFinite() && rod.base.frame.coeffs().allFinite();
   for (const rod::Element& e : rod.elements) {
     const bool has_length = std::isfinite(e.rest_length) && e.rest_length > 0.0;
     finite = finite && has_length && std::isfinite(e.mass()) && e.section.bendStiffness().allFinite() &&
@@ -29,103 +28,70 @@ bool isFinite(const rod::Rod& rod, const Loads& loads) {
   return finite;
 }
 
-/// A rod with the given frames leaning over towards a fixed direction of the world, as material rotations. Eigenvector
-/// searches that start from it find a reproducible direction of buckling when every direction is equally good.
-RotationField lean(const Vector3& tangent, const ReducedEnergy::Frames& frames, const Vector3& towards) {
-  const Vector3 axis = tangent.cross(towards);
-  RotationField field(frames.size());
-  for (std::size_t e = 0; e < frames.size(); ++e) {
-    field[e] = (static_cast<double>(e) + 0.5) * (frames[e].conjugate() * axis);
-  }
-  return field;
+double norm(const TurnField& field) {
+  double sum = 0.0;
+  for (const Vector3& w : field) sum += w.squaredNorm();
+  return std::sqrt(sum);
 }
 
-/// Lowest eigenpair, searched from two leanings at right angles so that no symmetry can hide it.
-Eigenpair lowestEigenpair(const rod::Quaternion& base, const ReducedEnergy::Frames& frames,
-                          const BlockTridiagonal& hessian) {
-  const Vector3 tangent = base * Vector3::UnitZ();
-  const Vector3 first = std::abs(tangent.x()) < 0.9 ? Vector3::UnitX() : Vector3::UnitY();
-  Eigenpair one = lowestEigenpair(hessian, lean(tangent, frames, first), kEigenvalueTolerance);
-  Eigenpair other = lowestEigenpair(hessian, lean(tangent, frames, tangent.cross(first)), kEigenvalueTolerance);
-  const bool clearly_lower = other.value < one.value - 10.0 * kEigenvalueTolerance * std::abs(one.value);
-  return clearly_lower ? other : one;
+/// Newton direction; an indefinite Hessian is shifted until it is positive. `shift` [N m] is remembered between
+/// iterations. The first one vanishes with the residual: at a buckled equilibrium the free azimuth makes the Hessian
+/// singular, and a shift that stayed would stall the last iterations. Returns the shift that served.
+double findStep(ReducedEnergy& energy, double residual, double& shift) {
+  const double first = std::max(1e-6 * std::min(1.0, 1e5 * residual), 1e-16) * energy.stiffnessScale();
+  double tau = shift;
+  while (!energy.findStep(tau)) tau = tau > 0.0 ? 4.0 * tau : first;
+  shift = tau > 4.0 * first ? tau / 4.0 : 0.0;
+  return tau;
+}
+
+/// Armijo backtracking on the true energy. True if a step was taken; `here` is then where it led.
+bool searchLine(ReducedEnergy& energy, double max_rotation, Evaluation& here) {
+  const double noise = 1e-13 * here.magnitude;
+  double scale = std::min(1.0, max_rotation / energy.largestTurn());
+  for (int halvings = 0; halvings < 40; ++halvings, scale *= 0.5) {
+    const Evaluation there = energy.tryStep(scale);
+    if (there.largest_bend < kUnresolvable &&
+        there.energy <= here.energy - kArmijo * scale * energy.decrement() + noise) {
+      energy.accept();
+      here = there;
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Moves along the unstable direction to about the least energy: doubling until it rises, then through three points.
+void leaveAlong(ReducedEnergy& energy, const TurnField& direction, Evaluation& here) {
+  energy.setStep(direction);
+  const double unit = 1.0 / energy.largestTurn();
+  const auto energyAt = [&](double angle) {
+    const Evaluation there = energy.tryStep(angle * unit);
+    return there.largest_bend < kUnresolvable ? there.energy : std::numeric_limits<double>::infinity();
+  };
+  double angle = 0.02;
+  double before = here.energy, middle = energyAt(angle), beyond = energyAt(2.0 * angle);
+  while (beyond < middle && angle < 0.75) {
+    angle *= 2.0;
+    before = middle;
+    middle = beyond;
+    beyond = energyAt(2.0 * angle);
+  }
+  // Vertex of the parabola through angle / 2, angle and 2 angle (0, angle and 2 angle if the first trial was beyond
+  // it).
+  const double width = angle > 0.02 ? 0.5 * angle : angle;
+  const double left = (middle - before) / width;
+  const double right = (beyond - middle) / angle;
+  const double curvature = (right - left) / (0.5 * (width + angle));
+  if (curvature > 0.0) angle = std::clamp(angle - 0.5 * width - left / curvature, 0.25 * angle, 2.0 * angle);
+  here = energy.tryStep(angle * unit);
+  energy.accept();
 }
 
 }  // namespace
 
 struct StaticEquilibrium::Workspace {
   ReducedEnergy energy;
-  RotationField gradient, step;
-  BlockTridiagonal hessian;
-  BlockCholesky factor;
-  ReducedEnergy::Frames frames, trial;
-
-  double tryStep(double scale) {
-    trial.resize(frames.size());
-    for (std::size_t e = 0; e < frames.size(); ++e) {
-      trial[e] = (frames[e] * rod::exp(scale * step[e])).normalized();
-    }
-    const double value = energy.evaluate(trial);
-    return energy.largestBend() < kUnresolvable ? value : std::numeric_limits<double>::infinity();
-  }
-
-  double residual() const { return largestRotation(gradient) / energy.coupleScale(); }
-
-  /// Newton direction; an indefinite Hessian is shifted until it is positive. The shift is remembered between
-  /// iterations. The first one vanishes with the residual: at a buckled equilibrium the free azimuth makes the Hessian
-  /// singular, and a shift that stayed would stall the last iterations.
-  void newtonDirection(double& shift) {
-    const double scale = hessian.largestDiagonal();
-    const double first = std::max(1e-6 * std::min(1.0, 1e5 * residual()), 1e-16);
-    double tau = shift;
-    while (!factor.factor(hessian, tau * scale)) tau = tau > 0.0 ? 4.0 * tau : first;
-    shift = tau > 4.0 * first ? tau / 4.0 : 0.0;
-    step = gradient;
-    for (Vector3& w : step) w = -w;
-    factor.solve(step);
-  }
-
-  /// Armijo backtracking on the true energy. True if a step was taken.
-  bool lineSearch(double value, double max_rotation) {
-    const double slope = dot(gradient, step);
-    const double noise = 1e-13 * energy.magnitude();
-    double scale = std::min(1.0, max_rotation / largestRotation(step));
-    for (int halvings = 0; halvings < 40; ++halvings, scale *= 0.5) {
-      if (tryStep(scale) <= value + kArmijo * scale * slope + noise) {
-        frames.swap(trial);
-        return true;
-      }
-    }
-    return false;
-  }
-
-  /// Moves along the unstable direction to about the least energy: doubling until it rises, then through three points.
-  void leaveAlong(const RotationField& direction, double value) {
-    step = direction;
-    const double unit = 1.0 / largestRotation(step);
-    double angle = 0.02;
-    double before = value, here = tryStep(angle * unit), beyond = tryStep(2.0 * angle * unit);
-    while (beyond < here && angle < 0.75) {
-      angle *= 2.0;
-      before = here;
-      here = beyond;
-      beyond = tryStep(2.0 * angle * unit);
-    }
-    // Vertex of the parabola through angle / 2, angle and 2 angle (0, angle and 2 angle if the first trial was beyond
-    // it).
-    const double width = angle > 0.02 ? 0.5 * angle : angle;
-    const double left = (here - before) / width;
-    const double right = (beyond - here) / angle;
-    const double curvature = (right - left) / (0.5 * (width + angle));
-    if (curvature > 0.0) angle = std::clamp(angle - 0.5 * width - left / curvature, 0.25 * angle, 2.0 * angle);
-    tryStep(angle * unit);
-    frames.swap(trial);
-  }
-
-  void readFrames(const rod::Rod& rod) {
-    frames.resize(rod.size());
-    for (std::size_t e = 0; e < rod.size(); ++e) frames[e] = rod.elements[e].frame;
-  }
 };
 
 StaticEquilibrium::StaticEquilibrium(const RelaxationSettings& settings)
@@ -135,7 +101,6 @@ StaticEquilibrium::StaticEquilibrium(StaticEquilibrium&&) noexcept = default;
 StaticEquilibrium& StaticEquilibrium::operator=(StaticEquilibrium&&) noexcept = default;
 
 RelaxationReport StaticEquilibrium::relax(rod::Rod& rod, const Loads& loads) {
-  Workspace& w = *workspace_;
   RelaxationReport report;
   const auto stop = [&report](RelaxationReason reason) {
     report.reason = reason;
@@ -143,55 +108,53 @@ RelaxationReport StaticEquilibrium::relax(rod::Rod& rod, const Loads& loads) {
   };
   if (!isFinite(rod, loads)) return stop(RelaxationReason::not_finite);
 
-  w.energy.assign(rod, loads);
-  w.readFrames(rod);
+  ReducedEnergy& energy = workspace_->energy;
+  energy.assign(rod, loads);
   // Forces of all elements beyond add up in each, so round-off grows with their number.
   const double round_off = 10.0 * static_cast<double>(rod.size()) * std::numeric_limits<double>::epsilon();
   const double tolerance = std::max(settings_.tolerance, round_off);
   double shift = 0.0;
+  Evaluation here = energy.evaluate();
   while (true) {
-    const double value = w.energy.evaluate(w.frames);
-    w.energy.differentiate(w.gradient, w.hessian);
-    report.residual = w.residual();
-    report.largest_bend = w.energy.largestBend();
-    if (!std::isfinite(report.residual) || !std::isfinite(value)) return stop(RelaxationReason::not_finite);
+    report.residual = here.largest_gradient / energy.coupleScale();
+    report.largest_bend = here.largest_bend;
+    if (!std::isfinite(report.residual) || !std::isfinite(here.energy)) return stop(RelaxationReason::not_finite);
 
     if (report.residual < tolerance) {
-      const Eigenpair lowest = lowestEigenpair(rod.base.frame, w.frames, w.hessian);
+      double last_shift = 0.0;
+      while (!energy.findStep(last_shift))
+        last_shift = last_shift > 0.0 ? 4.0 * last_shift : 1e-12 * energy.stiffnessScale();
+      TurnField towards = energy.turnsFrom(rod);
+      if (norm(towards) < 1e-9) towards = energy.lean();
+      const Eigenpair lowest = energy.lowestEigenpair(last_shift, towards);
       report.lowest_eigenvalue = lowest.value;
       // What is left of the gradient shows up as an eigenvalue of the free azimuth of a buckled column; it is no
       // instability.
-      const double neutral = std::max(kUnstable * w.energy.bendingScale(), 10.0 * largestRotation(w.gradient));
+      const double neutral = std::max(kUnstable * energy.bendingScale(), 10.0 * here.largest_gradient);
       if (lowest.value >= -neutral) break;
       if (report.branch_switches == settings_.max_branch_switches) return stop(RelaxationReason::unstable);
       ++report.branch_switches;
-      w.leaveAlong(lowest.vector, value);
+      leaveAlong(energy, lowest.vector, here);
       continue;
     }
 
     if (report.iterations == settings_.max_iterations) return stop(RelaxationReason::too_many_iterations);
     ++report.iterations;
-    w.newtonDirection(shift);
-    if (!w.lineSearch(value, settings_.max_rotation)) return stop(RelaxationReason::line_search_failed);
+    findStep(energy, report.residual, shift);
+    if (!searchLine(energy, settings_.max_rotation, here)) return stop(RelaxationReason::line_search_failed);
   }
   if (report.largest_bend > settings_.max_bend_angle) return stop(RelaxationReason::unresolved_bend);
 
-  for (std::size_t e = 0; e < rod.size(); ++e) {
-    rod.elements[e].frame = w.frames[e];
-    rod.elements[e].strain = w.energy.strain(e);
-    rod.bends[e].curvature = w.energy.curvature(e);
-  }
-  rod.rebuildPositions();
+  energy.writeTo(rod);
   return report;
 }
 
 double StaticEquilibrium::lowestEigenvalue(const rod::Rod& rod, const Loads& loads) {
-  Workspace& w = *workspace_;
-  w.energy.assign(rod, loads);
-  w.readFrames(rod);
-  w.energy.evaluate(w.frames);
-  w.energy.differentiate(w.gradient, w.hessian);
-  return lowestEigenpair(rod.base.frame, w.frames, w.hessian).value;
+  ReducedEnergy& energy = workspace_->energy;
+  energy.assign(rod, loads);
+  double shift = 0.0;
+  while (!energy.findStep(shift)) shift = shift > 0.0 ? 4.0 * shift : 1e-12 * energy.stiffnessScale();
+  return energy.lowestEigenpair(shift, energy.lean()).value;
 }
 
 }  // namespace sensory_growth::mechanics

@@ -1,0 +1,89 @@
+#pragma once
+
+/// The innermost loops of the reduced energy (model.md 12.2, 12.3), one set per instruction set.
+///
+/// Elements are addressed through packets; those beyond the last one are padding without stiffness or force. The
+/// Hessian never exists as a whole: it is made a few packets at a time, from the tip to the base, and eliminated at
+/// once, so that long rods are not limited by memory.
+
+#include <cstddef>
+
+#include "kernels/packets.h"
+
+namespace sensory_growth::mechanics::kernels {
+
+/// What stays constant while frames change, of eight elements e and the bends below them.
+struct RodPacket {
+  Packet stiffness[3];     ///< of the bend over its Voronoi length, B / D [N m]
+  Packet rest_angle[3];    ///< of the bend, D kappa0 [rad]
+  Packet force[3];         ///< carried by the element times its rest length, in the world [N m]
+  Packet couple[3];        ///< from outside, in the material frame [N m]
+  Packet rest_stretch[3];  ///< e3 + sigma0 [-]
+  Packet compliance[2];    ///< shear and stretch compliance over the rest length [1/(N m)]
+};
+
+struct RodView {
+  std::size_t size = 0;   ///< elements
+  std::size_t first = 0;  ///< the first element that may turn: 1 if element 0 is frozen
+  const RodPacket* packets = nullptr;
+};
+
+/// Unit quaternions (w, x, y, z), a column each, readable from index -1, which is the base, to the end of the padding.
+struct FrameView {
+  double* column[4];
+};
+
+/// A rotation vector per element, a column per component.
+struct TurnView {
+  double* column[3];
+};
+
+struct Evaluation {
+  double energy = 0.0;            ///< [J], up to a constant
+  double magnitude = 0.0;         ///< sum of the magnitudes of its terms [J], which bounds its round-off
+  double largest_gradient = 0.0;  ///< of an element [N m]; NaN if any is
+  double largest_bend = 0.0;      ///< turn between neighbours [rad]
+};
+
+/// Row of the block Cholesky factor A = L D L^T that belongs to one element.
+struct FactorRow {
+  double pivot_inverse[6];  ///< xx, xy, xz, yy, yz, zz
+  double coupling[9];       ///< row e - 1, column e of the unit upper factor, by rows
+  double solution[3];       ///< of the forward elimination
+};
+
+struct Elimination {
+  bool positive = false;   ///< the matrix was positive definite; otherwise nothing else holds
+  double decrement = 0.0;  ///< -g . step of the Newton step [J]
+};
+
+struct ReducedKernels {
+  Evaluation (*evaluate)(const RodView&, const FrameView&);
+
+  /// Factors Hessian + shift * 1 and eliminates minus the gradient forward.
+  Elimination (*eliminate)(const RodView&, const FrameView&, double shift, FactorRow*);
+
+  /// Backward substitution after eliminate(): the Newton step. Returns the largest turn of an element [rad].
+  double (*substitute)(const RodView&, const FactorRow*, const TurnView& step);
+
+  /// frames turned by scale * step.
+  void (*move)(const RodView&, const FrameView& frames, const TurnView& step, double scale, const FrameView& moved);
+
+  /// Solves (Hessian + shift * 1) X = B for two right-hand sides after eliminate(), in place; six numbers per element.
+  void (*solvePair)(const RodView&, const FactorRow*, double* pair);
+
+  /// Turn of every bend and strain of every element.
+  void (*strains)(const RodView&, const FrameView&, const TurnView& angle, const TurnView& strain);
+
+  /// Gradient, diagonal blocks (xx, xy, xz, yy, yz, zz) and the blocks at row e - 1, column e (by rows) of the Hessian.
+  void (*blocks)(const RodView&, const FrameView&, double (*gradient)[3], double (*diagonal)[6], double (*upper)[9]);
+};
+
+/// Those of the instruction set in use.
+const ReducedKernels& reducedKernels();
+
+const ReducedKernels& reducedKernelsBaseline();
+const ReducedKernels& reducedKernelsAvx2();
+const ReducedKernels& reducedKernelsAvx512();
+
+}  // namespace sensory_growth::mechanics::kernels

@@ -1,0 +1,115 @@
+#pragma once
+
+/// Energy of a rod under dead loads as a function of its frames alone (model.md 12.2, 12.3).
+///
+/// For given frames the energy is quadratic in the strains, whose optimum is sigma = sigma0 + S^-1 p with p the element
+/// force in the material frame. Perturbations are R_e -> R_e exp(w_e). The Hessian is block tridiagonal with 3x3
+/// blocks; it is factored as it is made.
+
+#include <cstddef>
+#include <vector>
+
+#include "kernels/reduced_kernels.h"
+#include "sensory_growth/mechanics/loads.h"
+#include "sensory_growth/rod/rod.h"
+
+namespace sensory_growth::mechanics {
+
+/// One rotation vector per element [rad], in material components.
+using TurnField = std::vector<rod::Vector3>;
+
+struct Eigenpair {
+  double value = 0.0;  ///< [N m]
+  TurnField vector;    ///< Euclidean norm 1
+};
+
+/// Owns the arrays of one relaxation and reuses their memory in the next.
+class ReducedEnergy {
+ public:
+  using Evaluation = kernels::Evaluation;
+
+  /// Takes the rod as it stands, and what acts on it. Surroundings are not looked at.
+  void assign(const rod::Rod& rod, const Loads& loads);
+
+  std::size_t size() const { return view_.size; }
+
+  /// At the current frames.
+  Evaluation evaluate() const { return kernels_->evaluate(view_, frames_.view()); }
+
+  /// Factors Hessian + shift * 1 at the current frames and solves for the Newton step. False if that matrix is not
+  /// positive definite; there is no step then.
+  bool findStep(double shift);
+
+  double decrement() const { return decrement_; }       ///< minus the gradient times the step [J]
+  double largestTurn() const { return largest_turn_; }  ///< of an element in the step [rad]
+
+  /// Takes a step from outside in place of Newton's.
+  void setStep(const TurnField& step);
+
+  /// At the frames turned by scale * step, which accept() makes the current ones.
+  Evaluation tryStep(double scale);
+  void accept() { frames_.swap(trial_); }
+
+  /// Writes frames, strains and positions of the current frames to the rod that was assigned.
+  void writeTo(rod::Rod& rod);
+
+  /// Lowest eigenpair of the Hessian at the current frames, with the help of the last factor, whose shift was `shift`.
+  /// If the lowest eigenvalue is double, as it is for a straight rod of circular section, `towards` chooses.
+  Eigenpair lowestEigenpair(double shift, const TurnField& towards);
+
+  /// The rod leaning over, as a cantilever would, towards a fixed direction of the world at right angles to its base.
+  TurnField lean() const;
+
+  /// Turns that lead from the frames of `rod` to the current ones.
+  TurnField turnsFrom(const rod::Rod& rod) const;
+
+  double coupleScale() const { return couple_scale_; }        ///< max(W L, B / L), W the sum of the forces [N m]
+  double bendingScale() const { return bending_scale_; }      ///< B / L: bends the rod by about a radian [N m]
+  double stiffnessScale() const { return stiffness_scale_; }  ///< about the largest entry of the Hessian [N m]
+
+  /// Gradient and Hessian as a whole, for tests: blocks at (e, e) and at (e - 1, e).
+  void blocks(TurnField& gradient, std::vector<rod::Matrix3>& diagonal, std::vector<rod::Matrix3>& upper) const;
+
+ private:
+  /// Columns of doubles, readable from index -1 to the end of the last packet.
+  template <std::size_t N>
+  class Columns {
+   public:
+    void resize(std::size_t elements);
+    double* column(std::size_t i) { return data_.data() + i * stride_ + kLead; }
+    const double* column(std::size_t i) const { return data_.data() + i * stride_ + kLead; }
+    void swap(Columns& other) {
+      data_.swap(other.data_);
+      std::swap(stride_, other.stride_);
+    }
+
+   private:
+    static constexpr std::size_t kLead = kernels::kPacket;
+    std::vector<double> data_;
+    std::size_t stride_ = 0;
+  };
+
+  struct FrameColumns : Columns<4> {
+    rod::Quaternion at(std::ptrdiff_t e) const;
+    void set(std::ptrdiff_t e, const rod::Quaternion& q);
+    kernels::FrameView view() const;
+  };
+  struct TurnColumns : Columns<3> {
+    rod::Vector3 at(std::size_t e) const { return {column(0)[e], column(1)[e], column(2)[e]}; }
+    void set(std::size_t e, const rod::Vector3& w);
+    kernels::TurnView view();
+  };
+
+  const kernels::ReducedKernels* kernels_ = nullptr;
+  kernels::RodView view_;
+  std::vector<kernels::RodPacket> packets_;
+  std::vector<rod::Vector3> forces_;
+  FrameColumns frames_, trial_;
+  TurnColumns step_, strain_;
+  std::vector<kernels::FactorRow> factor_;
+  std::vector<double> pair_, before_;
+  double decrement_ = 0.0, largest_turn_ = 0.0;
+  double couple_scale_ = 0.0, bending_scale_ = 0.0, stiffness_scale_ = 0.0;
+};
+
+}  // namespace sensory_growth::mechanics
