@@ -26,7 +26,7 @@ void ReducedEnergy::Columns<N>::resize(std::size_t elements) {
   // An odd number of cache lines keeps the columns out of each other's way in the cache.
   const std::size_t lines = kernels::packetCount(elements) + 1;
   stride_ = kernels::kPacket * (lines | 1);
-  data_.assign(N * stride_, 0.0);
+  data_.resize(N * stride_);
 }
 
 Quaternion ReducedEnergy::FrameColumns::at(std::ptrdiff_t e) const {
@@ -55,50 +55,86 @@ kernels::TurnView ReducedEnergy::TurnColumns::view() { return {{column(0), colum
 void ReducedEnergy::assign(const rod::Rod& rod, const Loads& loads) {
   const std::size_t n = rod.size();
   kernels_ = &kernels::reducedKernels();
-  packets_.assign(kernels::packetCount(n), {});
+  packets_.resize(kernels::packetCount(n));
   view_ = {n, rod.base_support == rod::BaseSupport::frozen_first_element ? std::size_t{1} : 0, packets_.data()};
   factor_.resize(n);
   frames_.resize(n);
   trial_.resize(n);
   step_.resize(n);
+  assignElements(rod);
+  assignForces(rod, loads);
+  clearPadding(rod);
+}
 
-  elementForces(rod, loads, forces_);
+void ReducedEnergy::assignElements(const rod::Rod& rod) {
   double stiffest = 0.0;
-  stiffness_scale_ = 0.0;
+  double length_below = 0.0;
   double stiffness_below = 0.0;
-  for (std::size_t e = 0; e < n; ++e) {
+  Vector3 compliance_below = Vector3::Zero();
+  stiffness_scale_ = 0.0;
+  rest_length_ = 0.0;
+  for (std::size_t e = 0; e < size(); ++e) {
     const rod::Element& element = rod.elements[e];
     kernels::RodPacket& packet = packets_[e / kernels::kPacket];
     const std::size_t lane = e % kernels::kPacket;
     const double length = element.rest_length;
-    const double voronoi = rod.voronoiLength(e);
-    const Vector3 stiffness = bendStiffness(rod, e);
-    const Vector3 compliance = element.section.stretchCompliance() / length;
-    setLane(packet.stiffness, lane, stiffness / voronoi);
+    const double voronoi = 0.5 * (length_below + length);
+    const Vector3 bend_stiffness = element.section.bendStiffness();
+    const Vector3 compliance = 0.5 * length * bend_stiffness.cwiseInverse();  // of half the element
+    Vector3 stiffness = (compliance_below + compliance).cwiseInverse();
+    if (e == 0 && rod.base_support != rod::BaseSupport::clamped) stiffness.setZero();
+    const Vector3 stretch_compliance = element.section.stretchCompliance() / length;
+
+    setLane(packet.stiffness, lane, stiffness);
     setLane(packet.rest_angle, lane, voronoi * rod.bends[e].rest_curvature);
-    setLane(packet.force, lane, length * forces_[e]);
-    setLane(packet.couple, lane, e + 1 == n ? loads.tip_couple : Vector3::Zero());
+    setLane(packet.couple, lane, Vector3::Zero());
     setLane(packet.rest_stretch, lane, Vector3::UnitZ() + element.rest_strain);
-    packet.compliance[0].lane[lane] = compliance.x();
-    packet.compliance[1].lane[lane] = compliance.z();
+    packet.compliance[0].lane[lane] = stretch_compliance.x();
+    packet.compliance[1].lane[lane] = stretch_compliance.z();
     frames_.set(static_cast<std::ptrdiff_t>(e), element.frame);
-    stiffest = std::max(stiffest, stiffness.head<2>().maxCoeff());
-    const double stiffness_above = stiffness.maxCoeff() / voronoi;
-    stiffness_scale_ = std::max(stiffness_scale_, stiffness_below + stiffness_above);
-    stiffness_below = stiffness_above;
+
+    stiffest = std::max(stiffest, bend_stiffness.x());
+    stiffness_scale_ = std::max(stiffness_scale_, stiffness_below + stiffness.maxCoeff());
+    rest_length_ += length;
+    stiffness_below = stiffness.maxCoeff();
+    compliance_below = compliance;
+    length_below = length;
   }
   frames_.set(-1, rod.base.frame);
   trial_.set(-1, rod.base.frame);
   if (view_.first == 1) frames_.set(0, rod.base.frame);
-  for (std::size_t e = n; e < packets_.size() * kernels::kPacket; ++e) {
-    frames_.set(static_cast<std::ptrdiff_t>(e), rod.elements.back().frame);
-  }
+  bending_scale_ = stiffest / rest_length_;
+}
 
-  double total_force = 0.0;
-  for (std::size_t v = 0; v <= n; ++v) total_force += vertexForce(rod, loads, v).norm();
-  const double L = rod.restLength();
-  bending_scale_ = stiffest / L;
-  couple_scale_ = std::max({total_force * L, bending_scale_, loads.tip_couple.norm()});
+void ReducedEnergy::assignForces(const rod::Rod& rod, const Loads& loads) {
+  const std::size_t n = size();
+  Vector3 carried = loads.tip_force;
+  double total = 0.0;
+  Vector3 above = loads.tip_force;  // on the vertex at the upper end, from the element beyond it
+  for (std::size_t e = n; e-- > 0;) {
+    const rod::Element& element = rod.elements[e];
+    const Vector3 half = 0.5 * (element.mass() * loads.gravity + element.rest_length * loads.line_force);
+    carried += half;
+    total += (above + half).norm();
+    setLane(packets_[e / kernels::kPacket].force, e % kernels::kPacket, element.rest_length * carried);
+    carried += half;
+    above = half;
+  }
+  total += above.norm();
+  tip_couple_ = loads.tip_couple;
+  setLane(packets_[(n - 1) / kernels::kPacket].couple, (n - 1) % kernels::kPacket, loads.tip_couple);
+  couple_scale_ = std::max({total * rest_length_, bending_scale_, loads.tip_couple.norm()});
+}
+
+void ReducedEnergy::clearPadding(const rod::Rod& rod) {
+  for (std::size_t e = size(); e < packets_.size() * kernels::kPacket; ++e) {
+    double* packet = packets_[e / kernels::kPacket].stiffness[0].lane;
+    constexpr std::size_t kRows = sizeof(kernels::RodPacket) / sizeof(kernels::Packet);
+    for (std::size_t row = 0; row < kRows; ++row) packet[row * kernels::kPacket + e % kernels::kPacket] = 0.0;
+    const auto index = static_cast<std::ptrdiff_t>(e);
+    frames_.set(index, rod.elements.back().frame);
+    for (std::size_t i = 0; i < 3; ++i) step_.column(i)[e] = 0.0;
+  }
 }
 
 bool ReducedEnergy::findStep(double shift) {
@@ -134,10 +170,14 @@ void ReducedEnergy::writeTo(rod::Rod& rod) {
   rod.rebuildPositions();
 }
 
-TurnField ReducedEnergy::lean() const {
+Vector3 ReducedEnergy::leaningAxis() const {
   const Vector3 tangent = frames_.at(-1) * Vector3::UnitZ();
   const Vector3 towards = std::abs(tangent.x()) < 0.9 ? Vector3::UnitX() : Vector3::UnitY();
-  const Vector3 axis = tangent.cross(towards);
+  return tangent.cross(towards);
+}
+
+TurnField ReducedEnergy::lean() const {
+  const Vector3 axis = leaningAxis();
   TurnField field(size());
   for (std::size_t e = 0; e < size(); ++e) {
     field[e] = (static_cast<double>(e) + 0.5) * (frames_.at(static_cast<std::ptrdiff_t>(e)).conjugate() * axis);
@@ -153,44 +193,43 @@ TurnField ReducedEnergy::turnsFrom(const rod::Rod& rod) const {
   return field;
 }
 
-Eigenpair ReducedEnergy::lowestEigenpair(double shift, const TurnField& towards) {
+double ReducedEnergy::lowestEigenvalue(double shift) {
   // Inverse iteration with two vectors at once: the two directions in which a slender rod can fall are often equally
   // good, and with both of them the third eigenvalue, about nine times the first, decides how fast it converges.
   constexpr int kMaxIterations = 200;
   constexpr int kIterationsPerShift = 8;
-  constexpr double kTolerance = 1e-6;  // of the eigenvalue
-  constexpr double kDouble = 1e-4;     // eigenvalues closer than this, relative, are one
+  constexpr double kTolerance = 1e-4;  // of the change; the error is smaller by another factor of about a hundred
 
   using Eigen::Matrix2d;
-  using Pair = Eigen::Map<Eigen::Matrix<double, 2, Eigen::Dynamic>>;
-  const std::size_t n = size();
   const Vector3 tangent = frames_.at(-1) * Vector3::UnitZ();
-  const TurnField start = lean();
-  pair_.resize(6 * n);
-  for (std::size_t e = 0; e < n; ++e) {
-    const Quaternion frame = frames_.at(static_cast<std::ptrdiff_t>(e));
-    const Vector3 other = frame.conjugate() * tangent.cross(frame * start[e]);
-    for (int i = 0; i < 3; ++i) {
-      pair_[6 * e + 2 * i] = start[e][i];
-      pair_[6 * e + 2 * i + 1] = other[i];
-    }
+  const Vector3 axis = leaningAxis();
+  const Vector3 other_axis = tangent.cross(axis);
+  pair_.resize(6 * size());
+  image_.resize(6 * size());
+  for (std::size_t e = 0; e < size(); ++e) {
+    const Quaternion world = frames_.at(static_cast<std::ptrdiff_t>(e)).conjugate();
+    Eigen::Map<Eigen::Matrix<double, 2, 3>> fields(&pair_[6 * e]);
+    fields.row(0) = (static_cast<double>(e) + 0.5) * (world * axis);
+    fields.row(1) = (static_cast<double>(e) + 0.5) * (world * other_axis);
   }
 
-  Eigenpair lowest;
-  Pair y(pair_.data(), 2, static_cast<Eigen::Index>(3 * n));
-  Eigen::Vector2d values = Eigen::Vector2d::Zero();
+  mix_.setIdentity();
+  double lowest = 0.0;
   for (int iteration = 1; iteration <= kMaxIterations; ++iteration) {
-    before_ = pair_;
-    kernels_->solvePair(view_, factor_.data(), pair_.data());
-    const Pair x(before_.data(), 2, y.cols());
-    const Matrix2d stiffness = 0.5 * (y * x.transpose() + x * y.transpose());
-    const Matrix2d mass = y * y.transpose();
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix2d> ritz(stiffness, mass);
-    values = ritz.eigenvalues();
-    y = (ritz.eigenvectors().transpose() * y).eval();
-    const double value = values[0] - shift;
-    const double change = std::abs(value - lowest.value);
-    lowest.value = value;
+    const double mix[4] = {mix_(0, 0), mix_(0, 1), mix_(1, 0), mix_(1, 1)};
+    const kernels::PairProducts sum = kernels_->solvePair(view_, factor_.data(), mix, pair_.data(), image_.data());
+    pair_.swap(image_);
+    // Y^T A Y = Y^T X, with X mixed as it went in.
+    Matrix2d yx, mass;
+    yx << sum.yx[0][0], sum.yx[0][1], sum.yx[1][0], sum.yx[1][1];
+    mass << sum.yy[0], sum.yy[1], sum.yy[1], sum.yy[2];
+    const Matrix2d stiffness = yx * mix_.transpose();
+    ritz_.compute(0.5 * (stiffness + stiffness.transpose()), mass);
+    mix_ = ritz_.eigenvectors().transpose();
+
+    const double value = ritz_.eigenvalues()[0] - shift;
+    const double change = std::abs(value - lowest);
+    lowest = value;
     if (iteration > 1 && change <= kTolerance * std::abs(value) + 1e-15 * stiffness_scale_) break;
     if (iteration % kIterationsPerShift == 0) {
       // The Ritz value is an upper bound: a shift slightly beyond it sharpens the ratio to the next eigenvalue.
@@ -204,17 +243,23 @@ Eigenpair ReducedEnergy::lowestEigenpair(double shift, const TurnField& towards)
       }
     }
   }
+  return lowest;
+}
 
+TurnField ReducedEnergy::eigenvector(const TurnField& towards) const {
+  constexpr double kDouble = 1e-3;  // eigenvalues closer than this, relative, are one
+  const auto fields = [this](std::size_t e) -> Eigen::Matrix<double, 2, 3> {
+    return mix_ * Eigen::Map<const Eigen::Matrix<double, 2, 3>>(&pair_[6 * e]);
+  };
   // Of a double eigenvalue, the vector closest to the wanted direction; of a single one, the sign.
   Eigen::Vector2d overlap = Eigen::Vector2d::Zero();
-  for (std::size_t e = 0; e < n; ++e) overlap += y.middleCols<3>(static_cast<Eigen::Index>(3 * e)) * towards[e];
+  for (std::size_t e = 0; e < size(); ++e) overlap += fields(e) * towards[e];
+  const Eigen::Vector2d& values = ritz_.eigenvalues();
   const bool is_double = values[1] - values[0] <= kDouble * std::abs(values[1]);
-  const Eigen::Vector2d mix = is_double ? overlap.normalized() : Eigen::Vector2d(overlap[0] < 0.0 ? -1.0 : 1.0, 0.0);
-  lowest.vector.resize(n);
-  for (std::size_t e = 0; e < n; ++e) {
-    lowest.vector[e] = y.middleCols<3>(static_cast<Eigen::Index>(3 * e)).transpose() * mix;
-  }
-  return lowest;
+  const Eigen::Vector2d choice = is_double ? overlap.normalized() : Eigen::Vector2d(overlap[0] < 0.0 ? -1.0 : 1.0, 0.0);
+  TurnField vector(size());
+  for (std::size_t e = 0; e < size(); ++e) vector[e] = fields(e).transpose() * choice;
+  return vector;
 }
 
 void ReducedEnergy::blocks(TurnField& gradient, std::vector<rod::Matrix3>& diagonal,

@@ -7,7 +7,10 @@
 /// blocks; it is factored as it is made.
 
 #include <cstddef>
+#include <utility>
 #include <vector>
+
+#include <Eigen/Eigenvalues>
 
 #include "kernels/reduced_kernels.h"
 #include "sensory_growth/mechanics/loads.h"
@@ -17,11 +20,6 @@ namespace sensory_growth::mechanics {
 
 /// One rotation vector per element [rad], in material components.
 using TurnField = std::vector<rod::Vector3>;
-
-struct Eigenpair {
-  double value = 0.0;  ///< [N m]
-  TurnField vector;    ///< Euclidean norm 1
-};
 
 /// Owns the arrays of one relaxation and reuses their memory in the next.
 class ReducedEnergy {
@@ -43,6 +41,9 @@ class ReducedEnergy {
   double decrement() const { return decrement_; }       ///< minus the gradient times the step [J]
   double largestTurn() const { return largest_turn_; }  ///< of an element in the step [rad]
 
+  /// Work of body couples along the step [J]; it is no part of the energy.
+  double coupleWork() const { return tip_couple_.dot(step_.at(size() - 1)); }
+
   /// Takes a step from outside in place of Newton's.
   void setStep(const TurnField& step);
 
@@ -53,9 +54,12 @@ class ReducedEnergy {
   /// Writes frames, strains and positions of the current frames to the rod that was assigned.
   void writeTo(rod::Rod& rod);
 
-  /// Lowest eigenpair of the Hessian at the current frames, with the help of the last factor, whose shift was `shift`.
-  /// If the lowest eigenvalue is double, as it is for a straight rod of circular section, `towards` chooses.
-  Eigenpair lowestEigenpair(double shift, const TurnField& towards);
+  /// Lowest eigenvalue of the Hessian that findStep(shift) factored last [N m], to four digits.
+  double lowestEigenvalue(double shift);
+
+  /// Vector of the lowest eigenvalue found last, of Euclidean norm 1. If the eigenvalue is double, as it is for a
+  /// straight rod of circular section, the one closest to `towards`.
+  TurnField eigenvector(const TurnField& towards) const;
 
   /// The rod leaning over, as a cantilever would, towards a fixed direction of the world at right angles to its base.
   TurnField lean() const;
@@ -100,14 +104,22 @@ class ReducedEnergy {
     kernels::TurnView view();
   };
 
+  void assignElements(const rod::Rod& rod);
+  void assignForces(const rod::Rod& rod, const Loads& loads);
+  void clearPadding(const rod::Rod& rod);
+  rod::Vector3 leaningAxis() const;
+
   const kernels::ReducedKernels* kernels_ = nullptr;
   kernels::RodView view_;
   std::vector<kernels::RodPacket> packets_;
-  std::vector<rod::Vector3> forces_;
   FrameColumns frames_, trial_;
   TurnColumns step_, strain_;
   std::vector<kernels::FactorRow> factor_;
-  std::vector<double> pair_, before_;
+  std::vector<double> pair_, image_;
+  Eigen::Matrix2d mix_;
+  Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> ritz_;
+  double rest_length_ = 0.0;
+  rod::Vector3 tip_couple_ = rod::Vector3::Zero();
   double decrement_ = 0.0, largest_turn_ = 0.0;
   double couple_scale_ = 0.0, bending_scale_ = 0.0, stiffness_scale_ = 0.0;
 };

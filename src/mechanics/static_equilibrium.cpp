@@ -15,17 +15,11 @@ using Evaluation = ReducedEnergy::Evaluation;
 constexpr double kArmijo = 1e-4;
 constexpr double kUnstable = 1e-9;     // of B / L: eigenvalues below minus this are unstable, model.md 12.4
 constexpr double kUnresolvable = 3.0;  // rad: near pi the rotation vector of a bend jumps
+constexpr double kSmallStep = 1e-5;    // rad: the Hessian before such a step serves after it
 
-bool isFinite(const rod::Rod& rod, const Loads& loads) {
-  bool finite = loads.gravity.allFinite() && loads.tip_force.allFinite() && loads.line_force.allFinite() &&
-                loads.tip_couple.allFinite() && rod.base.frame.coeffs().allFinite();
-  for (const rod::Element& e : rod.elements) {
-    const bool has_length = std::isfinite(e.rest_length) && e.rest_length > 0.0;
-    finite = finite && has_length && std::isfinite(e.mass()) && e.section.bendStiffness().allFinite() &&
-             e.section.stretchCompliance().allFinite() && e.rest_strain.allFinite() && e.frame.coeffs().allFinite();
-  }
-  for (const rod::Bend& b : rod.bends) finite = finite && b.rest_curvature.allFinite();
-  return finite;
+bool hasLengths(const rod::Rod& rod) {
+  return std::all_of(rod.elements.begin(), rod.elements.end(),
+                     [](const rod::Element& e) { return e.rest_length > 0.0; });
 }
 
 double norm(const TurnField& field) {
@@ -34,31 +28,47 @@ double norm(const TurnField& field) {
   return std::sqrt(sum);
 }
 
-/// Newton direction; an indefinite Hessian is shifted until it is positive. `shift` [N m] is remembered between
-/// iterations. The first one vanishes with the residual: at a buckled equilibrium the free azimuth makes the Hessian
-/// singular, and a shift that stayed would stall the last iterations. Returns the shift that served.
-double findStep(ReducedEnergy& energy, double residual, double& shift) {
-  const double first = std::max(1e-6 * std::min(1.0, 1e5 * residual), 1e-16) * energy.stiffnessScale();
-  double tau = shift;
-  while (!energy.findStep(tau)) tau = tau > 0.0 ? 4.0 * tau : first;
-  shift = tau > 4.0 * first ? tau / 4.0 : 0.0;
-  return tau;
+/// Factors the Hessian, shifted if it is not positive. Returns the shift that served [N m].
+double factorShifted(ReducedEnergy& energy, double shift, double first) {
+  while (!energy.findStep(shift) && std::isfinite(shift)) shift = shift > 0.0 ? 4.0 * shift : first;
+  return shift;
 }
 
-/// Armijo backtracking on the true energy. True if a step was taken; `here` is then where it led.
-bool searchLine(ReducedEnergy& energy, double max_rotation, Evaluation& here) {
+/// Newton's step from an energy that is convex or made so by a shift, which is remembered for the next one. The first
+/// shift vanishes with the residual: at a buckled equilibrium the free azimuth makes the Hessian singular, and a shift
+/// that stayed would stall the last iterations.
+class ShiftedNewton {
+ public:
+  /// False if no finite shift serves.
+  bool findStep(ReducedEnergy& energy, double residual) {
+    const double first = std::max(1e-6 * std::min(1.0, 1e5 * residual), 1e-16) * energy.stiffnessScale();
+    used_ = factorShifted(energy, next_, first);
+    next_ = used_ > 4.0 * first ? used_ / 4.0 : 0.0;
+    return std::isfinite(used_);
+  }
+
+  double shift() const { return used_; }
+
+ private:
+  double used_ = 0.0;
+  double next_ = 0.0;
+};
+
+/// Armijo backtracking on the true energy and the work of body couples. Returns the part of the step that was taken,
+/// zero if none lowers the energy; `here` is then where it led.
+double searchLine(ReducedEnergy& energy, double max_rotation, Evaluation& here) {
   const double noise = 1e-13 * here.magnitude;
   double scale = std::min(1.0, max_rotation / energy.largestTurn());
   for (int halvings = 0; halvings < 40; ++halvings, scale *= 0.5) {
     const Evaluation there = energy.tryStep(scale);
-    if (there.largest_bend < kUnresolvable &&
-        there.energy <= here.energy - kArmijo * scale * energy.decrement() + noise) {
+    const double gain = here.energy - there.energy + scale * energy.coupleWork();
+    if (there.largest_bend < kUnresolvable && gain >= kArmijo * scale * energy.decrement() - noise) {
       energy.accept();
       here = there;
-      return true;
+      return scale;
     }
   }
-  return false;
+  return 0.0;
 }
 
 /// Moves along the unstable direction to about the least energy: doubling until it rises, then through three points.
@@ -88,6 +98,23 @@ void leaveAlong(ReducedEnergy& energy, const TurnField& direction, Evaluation& h
   energy.accept();
 }
 
+/// Lowest eigenvalue, with the factor of the last step if that is fresh, and again with one of its own if it comes
+/// close to zero.
+double stability(ReducedEnergy& energy, bool factor_is_fresh) {
+  if (factor_is_fresh) {
+    const double lowest = energy.lowestEigenvalue(0.0);
+    if (lowest > 1e-3 * energy.bendingScale() / static_cast<double>(energy.size())) return lowest;
+  }
+  return energy.lowestEigenvalue(factorShifted(energy, 0.0, 1e-12 * energy.stiffnessScale()));
+}
+
+/// Leaves an unstable equilibrium in the direction of the last increment, or of a fixed one if there was none.
+void leaveUnstable(ReducedEnergy& energy, const rod::Rod& start, Evaluation& here) {
+  constexpr double kNoIncrement = 1e-9;  // rad
+  const TurnField increment = energy.turnsFrom(start);
+  leaveAlong(energy, energy.eigenvector(norm(increment) > kNoIncrement ? increment : energy.lean()), here);
+}
+
 }  // namespace
 
 struct StaticEquilibrium::Workspace {
@@ -106,14 +133,15 @@ RelaxationReport StaticEquilibrium::relax(rod::Rod& rod, const Loads& loads) {
     report.reason = reason;
     return report;
   };
-  if (!isFinite(rod, loads)) return stop(RelaxationReason::not_finite);
+  if (!hasLengths(rod)) return stop(RelaxationReason::not_finite);
 
   ReducedEnergy& energy = workspace_->energy;
   energy.assign(rod, loads);
   // Forces of all elements beyond add up in each, so round-off grows with their number.
   const double round_off = 10.0 * static_cast<double>(rod.size()) * std::numeric_limits<double>::epsilon();
   const double tolerance = std::max(settings_.tolerance, round_off);
-  double shift = 0.0;
+  ShiftedNewton newton;
+  bool factor_is_fresh = false;
   Evaluation here = energy.evaluate();
   while (true) {
     report.residual = here.largest_gradient / energy.coupleScale();
@@ -121,27 +149,24 @@ RelaxationReport StaticEquilibrium::relax(rod::Rod& rod, const Loads& loads) {
     if (!std::isfinite(report.residual) || !std::isfinite(here.energy)) return stop(RelaxationReason::not_finite);
 
     if (report.residual < tolerance) {
-      double last_shift = 0.0;
-      while (!energy.findStep(last_shift))
-        last_shift = last_shift > 0.0 ? 4.0 * last_shift : 1e-12 * energy.stiffnessScale();
-      TurnField towards = energy.turnsFrom(rod);
-      if (norm(towards) < 1e-9) towards = energy.lean();
-      const Eigenpair lowest = energy.lowestEigenpair(last_shift, towards);
-      report.lowest_eigenvalue = lowest.value;
+      const double neutral = std::max(kUnstable * energy.bendingScale(), 10.0 * here.largest_gradient);
+      report.lowest_eigenvalue = stability(energy, factor_is_fresh);
       // What is left of the gradient shows up as an eigenvalue of the free azimuth of a buckled column; it is no
       // instability.
-      const double neutral = std::max(kUnstable * energy.bendingScale(), 10.0 * here.largest_gradient);
-      if (lowest.value >= -neutral) break;
+      if (report.lowest_eigenvalue >= -neutral) break;
       if (report.branch_switches == settings_.max_branch_switches) return stop(RelaxationReason::unstable);
       ++report.branch_switches;
-      leaveAlong(energy, lowest.vector, here);
+      leaveUnstable(energy, rod, here);
+      factor_is_fresh = false;
       continue;
     }
 
     if (report.iterations == settings_.max_iterations) return stop(RelaxationReason::too_many_iterations);
     ++report.iterations;
-    findStep(energy, report.residual, shift);
-    if (!searchLine(energy, settings_.max_rotation, here)) return stop(RelaxationReason::line_search_failed);
+    if (!newton.findStep(energy, report.residual)) return stop(RelaxationReason::not_finite);
+    const double taken = searchLine(energy, settings_.max_rotation, here);
+    if (taken == 0.0) return stop(RelaxationReason::line_search_failed);
+    factor_is_fresh = newton.shift() == 0.0 && taken * energy.largestTurn() < kSmallStep;
   }
   if (report.largest_bend > settings_.max_bend_angle) return stop(RelaxationReason::unresolved_bend);
 
@@ -150,11 +175,8 @@ RelaxationReport StaticEquilibrium::relax(rod::Rod& rod, const Loads& loads) {
 }
 
 double StaticEquilibrium::lowestEigenvalue(const rod::Rod& rod, const Loads& loads) {
-  ReducedEnergy& energy = workspace_->energy;
-  energy.assign(rod, loads);
-  double shift = 0.0;
-  while (!energy.findStep(shift)) shift = shift > 0.0 ? 4.0 * shift : 1e-12 * energy.stiffnessScale();
-  return energy.lowestEigenpair(shift, energy.lean()).value;
+  workspace_->energy.assign(rod, loads);
+  return stability(workspace_->energy, false);
 }
 
 }  // namespace sensory_growth::mechanics

@@ -156,11 +156,10 @@ TEST_P(RandomRod, LowestEigenpairIsOne) {
   const double lowest = dense.eigenvalues()[0];
   const double shift = std::max(0.0, -1.1 * lowest);
   ASSERT_TRUE(energy_.findStep(shift));
-  const Eigenpair pair = energy_.lowestEigenpair(shift, energy_.lean());
-  EXPECT_NEAR(pair.value, lowest, 1e-5 * std::abs(lowest));
-  const Eigen::VectorXd vector = flat(pair.vector);
+  EXPECT_NEAR(energy_.lowestEigenvalue(shift), lowest, 1e-4 * std::abs(lowest));
+  const Eigen::VectorXd vector = flat(energy_.eigenvector(energy_.lean()));
   EXPECT_NEAR(vector.norm(), 1.0, 1e-9);
-  EXPECT_NEAR(vector.dot(hessian * vector), lowest, 1e-5 * std::abs(lowest));
+  EXPECT_NEAR(vector.dot(hessian * vector), lowest, 1e-4 * std::abs(lowest));
   const double margin = 1e-3 * std::abs(lowest);
   EXPECT_TRUE(energy_.findStep(-lowest + margin));
   EXPECT_FALSE(energy_.findStep(-lowest - margin));

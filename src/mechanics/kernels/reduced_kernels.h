@@ -57,6 +57,11 @@ struct Elimination {
   double decrement = 0.0;  ///< -g . step of the Newton step [J]
 };
 
+struct PairProducts {
+  double yx[2][2] = {};  ///< row k, column l: vector k of Y times vector l of X
+  double yy[3] = {};     ///< of the vectors of Y with each other: 00, 01, 11
+};
+
 struct ReducedKernels {
   Evaluation (*evaluate)(const RodView&, const FrameView&);
 
@@ -69,8 +74,9 @@ struct ReducedKernels {
   /// frames turned by scale * step.
   void (*move)(const RodView&, const FrameView& frames, const TurnView& step, double scale, const FrameView& moved);
 
-  /// Solves (Hessian + shift * 1) X = B for two right-hand sides after eliminate(), in place; six numbers per element.
-  void (*solvePair)(const RodView&, const FactorRow*, double* pair);
+  /// Y = (Hessian + shift * 1)^-1 X mix^T after eliminate(), for two vectors at once: six numbers per element, those of
+  /// the two vectors side by side. `mix` is a 2x2 matrix by rows. X and Y must not overlap.
+  PairProducts (*solvePair)(const RodView&, const FactorRow*, const double (&mix)[4], const double* x, double* y);
 
   /// Turn of every bend and strain of every element.
   void (*strains)(const RodView&, const FrameView&, const TurnView& angle, const TurnView& strain);
