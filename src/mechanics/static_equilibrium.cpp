@@ -152,8 +152,8 @@ RelaxationReport StaticEquilibrium::relax(rod::Rod& rod, const Loads& loads) {
       const double neutral = std::max(kUnstable * energy.bendingScale(), 10.0 * here.largest_gradient);
       report.lowest_eigenvalue = stability(energy, factor_is_fresh);
       // What is left of the gradient shows up as an eigenvalue of the free azimuth of a buckled column; it is no
-      // instability.
-      if (report.lowest_eigenvalue >= -neutral) break;
+      // instability. Under a body couple, which has no potential, a negative eigenvalue proves nothing.
+      if (report.lowest_eigenvalue >= -neutral || !loads.tip_couple.isZero(0.0)) break;
       if (report.branch_switches == settings_.max_branch_switches) return stop(RelaxationReason::unstable);
       ++report.branch_switches;
       leaveUnstable(energy, rod, here);
