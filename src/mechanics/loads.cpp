@@ -2,6 +2,15 @@
 
 namespace sensory_growth::mechanics {
 
+Loads scaled(const Loads& loads, double factor) {
+  Loads result = loads;
+  result.gravity *= factor;
+  result.tip_force *= factor;
+  result.line_force *= factor;
+  result.tip_couple *= factor;
+  return result;
+}
+
 rod::Vector3 vertexForce(const rod::Rod& rod, const Loads& loads, std::size_t vertex) {
   rod::Vector3 force = rod.vertexMass(vertex) * loads.gravity + rod.vertexLength(vertex) * loads.line_force;
   if (vertex == rod.size()) force += loads.tip_force;

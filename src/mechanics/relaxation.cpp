@@ -49,7 +49,8 @@ std::string describe(const RelaxationReport& report) {
   std::ostringstream out;
   out << name(report.reason) << " after " << report.iterations << " Newton iterations, scaled residual "
       << report.residual << ", lowest eigenvalue " << report.lowest_eigenvalue << " N m, " << report.branch_switches
-      << " branch switches, largest turn between elements " << report.largest_bend << " rad" << advice(report.reason);
+      << " branch switches, " << (report.load_steps > 0 ? std::to_string(report.load_steps) + " load steps, " : "")
+      << "largest turn between elements " << report.largest_bend << " rad" << advice(report.reason);
   return out.str();
 }
 

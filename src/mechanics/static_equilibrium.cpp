@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "reduced_energy.h"
+#include "sensory_growth/mechanics/rest_shape.h"
 
 namespace sensory_growth::mechanics {
 namespace {
@@ -171,6 +173,34 @@ RelaxationReport StaticEquilibrium::relax(rod::Rod& rod, const Loads& loads) {
   if (report.largest_bend > settings_.max_bend_angle) return stop(RelaxationReason::unresolved_bend);
 
   energy.writeTo(rod);
+  return report;
+}
+
+RelaxationReport StaticEquilibrium::relaxInLoadSteps(rod::Rod& rod, const Loads& loads) {
+  constexpr double kSmallestStep = 1.0 / 1024.0;
+  rod::Rod trial = rod;
+  RelaxationReport report = assumeRestShape(trial, settings_);
+  if (!report.ok()) return report;
+
+  double applied = 0.0;
+  double step = 0.25;
+  while (applied < 1.0) {
+    const double next = std::min(1.0, applied + step);
+    RelaxationReport part = relax(trial, scaled(loads, next));
+    part.load_steps = report.load_steps + 1;
+    part.iterations += report.iterations;
+    part.branch_switches += report.branch_switches;
+    report = part;
+    if (part.ok()) {
+      applied = next;
+      step *= 1.5;
+    } else if (step > kSmallestStep && part.reason != RelaxationReason::unresolved_bend) {
+      step *= 0.5;
+    } else {
+      return report;
+    }
+  }
+  rod = std::move(trial);
   return report;
 }
 

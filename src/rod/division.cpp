@@ -34,28 +34,52 @@ Daughters daughters(const Element& parent, const Vector3& lower_curvature, const
   return d;
 }
 
+/// The curvature that an element continues into at its lower end. A hinge bends nothing: the element then is taken to
+/// go on as it does above.
+const Bend& bendBelow(const Rod& rod, std::size_t e) {
+  const bool on_hinge = e == 0 && rod.base_support == BaseSupport::hinged;
+  return rod.bends[on_hinge ? std::min<std::size_t>(1, rod.size() - 1) : e];
+}
+
+/// Of a frozen element 0 both daughters keep the base frame at the lower end: the old turn is shared by two bends.
+void shareTurnAboveFrozen(Rod& rod) {
+  if (rod.size() < 2) return;
+  const double voronoi = rod.voronoiLength(1);
+  const double share = voronoi / (voronoi + 0.25 * rod.elements[0].rest_length);
+  rod.bends[1].curvature *= share;
+  rod.bends[1].rest_curvature *= share;
+}
+
 }  // namespace
 
 std::size_t divide(Rod& rod, const std::vector<bool>& selected, DivisionMode mode) {
   const auto count = static_cast<std::size_t>(std::count(selected.begin(), selected.end(), true));
   if (count == 0) return 0;
 
+  const bool divides_frozen = selected[0] && rod.base_support == BaseSupport::frozen_first_element;
+  if (divides_frozen) shareTurnAboveFrozen(rod);
+
   Rod divided;
   divided.base = rod.base;
+  divided.base_support = rod.base_support;
   divided.elements.reserve(rod.size() + count);
   divided.bends.reserve(rod.size() + count);
   divided.vertices.reserve(rod.size() + count + 1);
   divided.vertices.push_back(rod.vertices.front());
   for (std::size_t e = 0; e < rod.size(); ++e) {
     const Element& element = rod.elements[e];
-    const Bend& below = rod.bends[e];
-    divided.bends.push_back(below);
+    divided.bends.push_back(rod.bends[e]);
     if (selected[e]) {
+      const Bend& below = bendBelow(rod, e);
       const Bend& above = rod.bends[std::min(e + 1, rod.size() - 1)];
-      const Daughters d = daughters(element, below.curvature, above.curvature, mode);
+      Daughters d = daughters(element, below.curvature, above.curvature, mode);
       Bend between;
       between.curvature = dividedCurvature(element.rest_length, below.curvature, above.curvature);
       between.rest_curvature = dividedCurvature(element.rest_length, below.rest_curvature, above.rest_curvature);
+      if (e == 0 && divides_frozen) {
+        between = above;
+        d.upper.frame = (element.frame * exp(0.5 * element.rest_length * between.curvature)).normalized();
+      }
       Vertex middle;
       middle.label = 0.5 * (rod.vertices[e].label + rod.vertices[e + 1].label);
       // From below the new vertex is at l/2 R_a (v + R_a^T c), which is the chord midpoint plus the sagitta.
@@ -71,6 +95,9 @@ std::size_t divide(Rod& rod, const std::vector<bool>& selected, DivisionMode mod
     divided.vertices.push_back(rod.vertices[e + 1]);
   }
   rod = std::move(divided);
+  if (rod.base_support == BaseSupport::hinged) {
+    rod.bends[0].curvature = log(rod.base.frame.conjugate() * rod.elements[0].frame) / rod.voronoiLength(0);
+  }
   if (mode == DivisionMode::keep_strain) rod.rebuildPositions();
   return count;
 }

@@ -239,6 +239,39 @@ TEST(Division, PlanarEnergyNeverRisesAndFallsByItsClosedForm) {
   }
 }
 
+TEST(FrozenFirstElement, DaughtersShareTheTurnAboveIt) {
+  Rod rod = straightRod({}, 1.0, 4, support::section(0.05, 1.0, 1.0));
+  rod.base_support = BaseSupport::frozen_first_element;
+  for (std::size_t j = 1; j < 4; ++j) rod.bends[j].curvature = rod.bends[j].rest_curvature = {0.3, 0.8, -0.2};
+  rod.rebuild();
+  const Rod before = rod;
+  divide(rod, {true, false, false, false}, DivisionMode::keep_strain);
+  EXPECT_EQ(rod.elements[0].frame.coeffs(), rod.base.frame.coeffs());
+  // D / (D + l / 4) with D = l.
+  EXPECT_LT((rod.bends[1].curvature - 0.8 * before.bends[1].curvature).norm(), 1e-15);
+  EXPECT_LT((rod.bends[2].rest_curvature - 0.8 * before.bends[1].rest_curvature).norm(), 1e-15);
+  EXPECT_LT(rod.elements[2].frame.angularDistance(before.elements[1].frame), 1e-14);
+  rod.rebuild();
+  EXPECT_LT(rod.elements[4].frame.angularDistance(before.elements[3].frame), 1e-14);
+}
+
+TEST(HingedBase, KeepsItsFreeTurnThroughDivision) {
+  Rod rod = straightRod({}, 1.0, 3, support::section(0.05, 1.0, 1.0));
+  rod.base_support = BaseSupport::hinged;
+  rod.bends[0].curvature = {0.0, 5.0, 0.0};
+  for (std::size_t j = 1; j < 3; ++j) rod.bends[j].curvature = {0.0, 0.7, 0.0};
+  rod.rebuild();
+  const Rod before = rod;
+  divide(rod, {true, false, true}, DivisionMode::keep_strain);
+  for (std::size_t j = 1; j < rod.size(); ++j) EXPECT_NEAR(rod.bends[j].curvature.y(), 0.7, 1e-14);
+  const Rod divided = rod;
+  rod.rebuild();
+  for (std::size_t e = 0; e < rod.size(); ++e) {
+    EXPECT_LT(rod.elements[e].frame.angularDistance(divided.elements[e].frame), 1e-14);
+  }
+  EXPECT_LT(rod.elements[2].frame.angularDistance(before.elements[1].frame), 1e-14);
+}
+
 TEST(DivideLongElements, DividesUntilNoneIsTooLong) {
   Rod rod = straightRod({}, 1.0, 3, support::section(0.05, 1.0, 1.0));
   EXPECT_EQ(divideLongElements(rod, 0.1, DivisionMode::keep_strain), 9u);  // 3 to 6 to 12 elements of 1/12

@@ -18,6 +18,9 @@ struct Loads {
   Surroundings surroundings;                       ///< springs, walls and a held apex
 };
 
+/// The same loads, all `factor` times as large; surroundings stay.
+Loads scaled(const Loads& loads, double factor);
+
 /// Dead force on `vertex` [N].
 rod::Vector3 vertexForce(const rod::Rod& rod, const Loads& loads, std::size_t vertex);
 

@@ -32,6 +32,7 @@ struct RelaxationReport {
   double residual = 0.0;           ///< scaled [-]
   double lowest_eigenvalue = 0.0;  ///< of the Hessian at the end [N m]; close to zero for a free azimuth
   int branch_switches = 0;         ///< unstable equilibria left along their eigenvector
+  int load_steps = 0;              ///< parts in which the loads were applied; 0 if they were applied at once
   double largest_bend = 0.0;       ///< largest turn between neighbouring elements [rad]
 
   bool ok() const { return reason == RelaxationReason::converged; }

@@ -25,6 +25,11 @@ class StaticEquilibrium {
   /// Moves the rod from where it stands to a stable equilibrium. On failure the rod is left as it was given.
   RelaxationReport relax(rod::Rod& rod, const Loads& loads);
 
+  /// For loads that are too much for relax() at once: starts again from the unloaded rod and applies them in steps, as
+  /// long as the rod can follow and as short as it needs. Where several equilibria are stable, this may find another
+  /// one than relax() does from where the rod stands. On failure the rod is left as it was given.
+  RelaxationReport relaxInLoadSteps(rod::Rod& rod, const Loads& loads);
+
   /// Lowest eigenvalue of the Hessian of the rod as it stands [N m].
   double lowestEigenvalue(const rod::Rod& rod, const Loads& loads);
 
