@@ -15,6 +15,10 @@ using rod::Vector3;
 
 namespace {
 
+using BlockMatrix = Eigen::Matrix<double, kernels::kBlock, kernels::kBlock, Eigen::RowMajor>;
+using BlockMap = Eigen::Map<Eigen::Matrix<double, 3, kernels::kBlock, Eigen::RowMajor>>;
+using ConstBlockMap = Eigen::Map<const Eigen::Matrix<double, 3, kernels::kBlock, Eigen::RowMajor>>;
+
 void setLane(kernels::Packet (&packets)[3], std::size_t lane, const Vector3& value) {
   for (int i = 0; i < 3; ++i) packets[i].lane[lane] = value[i];
 }
@@ -170,6 +174,11 @@ void ReducedEnergy::writeTo(rod::Rod& rod) {
   rod.rebuildPositions();
 }
 
+double ReducedEnergy::leaning(std::size_t e) const {
+  const double x = (static_cast<double>(e) + 0.5) / static_cast<double>(size());
+  return x * (3.0 - x * x);  // nearly the sine of a cantilever's first mode
+}
+
 Vector3 ReducedEnergy::leaningAxis() const {
   const Vector3 tangent = frames_.at(-1) * Vector3::UnitZ();
   const Vector3 towards = std::abs(tangent.x()) < 0.9 ? Vector3::UnitX() : Vector3::UnitY();
@@ -180,7 +189,7 @@ TurnField ReducedEnergy::lean() const {
   const Vector3 axis = leaningAxis();
   TurnField field(size());
   for (std::size_t e = 0; e < size(); ++e) {
-    field[e] = (static_cast<double>(e) + 0.5) * (frames_.at(static_cast<std::ptrdiff_t>(e)).conjugate() * axis);
+    field[e] = leaning(e) * (frames_.at(static_cast<std::ptrdiff_t>(e)).conjugate() * axis);
   }
   return field;
 }
@@ -194,36 +203,38 @@ TurnField ReducedEnergy::turnsFrom(const rod::Rod& rod) const {
 }
 
 double ReducedEnergy::lowestEigenvalue(double shift) {
-  // Inverse iteration with two vectors at once: the two directions in which a slender rod can fall are often equally
-  // good, and with both of them the third eigenvalue, about nine times the first, decides how fast it converges.
+  // Inverse iteration with a block of vectors. The lowest eigenvalues of a slender rod belong to bending in two
+  // directions, often equally easy, and to twist; with these three and one more in the block the next eigenvalue,
+  // several times the first, decides how fast it converges.
   constexpr int kMaxIterations = 200;
   constexpr int kIterationsPerShift = 8;
-  constexpr double kTolerance = 1e-4;  // of the change; the error is smaller by another factor of about a hundred
+  constexpr double kTolerance = 1e-4;  // of the change; the error is smaller by another order or two
 
-  using Eigen::Matrix2d;
-  const Vector3 tangent = frames_.at(-1) * Vector3::UnitZ();
+  const std::size_t freedoms = 3 * (size() - view_.first);
+  if (freedoms == 0) return stiffness_scale_;
+  const auto m = static_cast<Eigen::Index>(std::min(kernels::kBlock, freedoms));
+  block_.resize(3 * kernels::kBlock * size());
+  image_.resize(block_.size());
   const Vector3 axis = leaningAxis();
-  const Vector3 other_axis = tangent.cross(axis);
-  pair_.resize(6 * size());
-  image_.resize(6 * size());
+  const Vector3 other_axis = (frames_.at(-1) * Vector3::UnitZ()).cross(axis);
   for (std::size_t e = 0; e < size(); ++e) {
     const Quaternion world = frames_.at(static_cast<std::ptrdiff_t>(e)).conjugate();
-    Eigen::Map<Eigen::Matrix<double, 2, 3>> fields(&pair_[6 * e]);
-    fields.row(0) = (static_cast<double>(e) + 0.5) * (world * axis);
-    fields.row(1) = (static_cast<double>(e) + 0.5) * (world * other_axis);
+    const double x = leaning(e);
+    BlockMap fields(&block_[3 * kernels::kBlock * e]);
+    fields << x * (world * axis), x * (world * other_axis), x * Vector3::UnitZ(), x * (x - 1.2) * (world * axis);
   }
 
-  mix_.setIdentity();
+  mix_.setIdentity(m, m);
   double lowest = 0.0;
   for (int iteration = 1; iteration <= kMaxIterations; ++iteration) {
-    const double mix[4] = {mix_(0, 0), mix_(0, 1), mix_(1, 0), mix_(1, 1)};
-    const kernels::PairProducts sum = kernels_->solvePair(view_, factor_.data(), mix, pair_.data(), image_.data());
-    pair_.swap(image_);
+    double mix[kernels::kBlock][kernels::kBlock] = {};
+    BlockMatrix::Map(&mix[0][0]).topLeftCorner(m, m) = mix_;
+    const kernels::BlockProducts products =
+        kernels_->solveBlock(view_, factor_.data(), mix, block_.data(), image_.data());
+    block_.swap(image_);
     // Y^T A Y = Y^T X, with X mixed as it went in.
-    Matrix2d yx, mass;
-    yx << sum.yx[0][0], sum.yx[0][1], sum.yx[1][0], sum.yx[1][1];
-    mass << sum.yy[0], sum.yy[1], sum.yy[1], sum.yy[2];
-    const Matrix2d stiffness = yx * mix_.transpose();
+    const SmallMatrix stiffness = BlockMatrix::Map(&products.yx[0][0]).topLeftCorner(m, m) * mix_.transpose();
+    const SmallMatrix mass = BlockMatrix::Map(&products.yy[0][0]).topLeftCorner(m, m);
     ritz_.compute(0.5 * (stiffness + stiffness.transpose()), mass);
     mix_ = ritz_.eigenvectors().transpose();
 
@@ -248,17 +259,17 @@ double ReducedEnergy::lowestEigenvalue(double shift) {
 
 TurnField ReducedEnergy::eigenvector(const TurnField& towards) const {
   constexpr double kDouble = 1e-3;  // eigenvalues closer than this, relative, are one
-  const auto fields = [this](std::size_t e) -> Eigen::Matrix<double, 2, 3> {
-    return mix_ * Eigen::Map<const Eigen::Matrix<double, 2, 3>>(&pair_[6 * e]);
+  const auto fields = [this](std::size_t e) -> Eigen::Matrix<double, 3, 2> {
+    return ConstBlockMap(&block_[3 * kernels::kBlock * e]).leftCols(mix_.rows()) * mix_.topRows<2>().transpose();
   };
   // Of a double eigenvalue, the vector closest to the wanted direction; of a single one, the sign.
   Eigen::Vector2d overlap = Eigen::Vector2d::Zero();
-  for (std::size_t e = 0; e < size(); ++e) overlap += fields(e) * towards[e];
-  const Eigen::Vector2d& values = ritz_.eigenvalues();
+  for (std::size_t e = 0; e < size(); ++e) overlap += fields(e).transpose() * towards[e];
+  const auto& values = ritz_.eigenvalues();
   const bool is_double = values[1] - values[0] <= kDouble * std::abs(values[1]);
   const Eigen::Vector2d choice = is_double ? overlap.normalized() : Eigen::Vector2d(overlap[0] < 0.0 ? -1.0 : 1.0, 0.0);
   TurnField vector(size());
-  for (std::size_t e = 0; e < size(); ++e) vector[e] = fields(e).transpose() * choice;
+  for (std::size_t e = 0; e < size(); ++e) vector[e] = fields(e) * choice;
   return vector;
 }
 

@@ -104,9 +104,13 @@ class ReducedEnergy {
     kernels::TurnView view();
   };
 
+  /// Up to kBlock rows and columns, on the stack.
+  using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kernels::kBlock, kernels::kBlock>;
+
   void assignElements(const rod::Rod& rod);
   void assignForces(const rod::Rod& rod, const Loads& loads);
   void clearPadding(const rod::Rod& rod);
+  double leaning(std::size_t e) const;
   rod::Vector3 leaningAxis() const;
 
   const kernels::ReducedKernels* kernels_ = nullptr;
@@ -115,9 +119,9 @@ class ReducedEnergy {
   FrameColumns frames_, trial_;
   TurnColumns step_, strain_;
   std::vector<kernels::FactorRow> factor_;
-  std::vector<double> pair_, image_;
-  Eigen::Matrix2d mix_;
-  Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> ritz_;
+  std::vector<double> block_, image_;
+  SmallMatrix mix_;
+  Eigen::GeneralizedSelfAdjointEigenSolver<SmallMatrix> ritz_;
   double rest_length_ = 0.0;
   rod::Vector3 tip_couple_ = rod::Vector3::Zero();
   double decrement_ = 0.0, largest_turn_ = 0.0;

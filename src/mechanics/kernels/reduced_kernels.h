@@ -57,9 +57,12 @@ struct Elimination {
   double decrement = 0.0;  ///< -g . step of the Newton step [J]
 };
 
-struct PairProducts {
-  double yx[2][2] = {};  ///< row k, column l: vector k of Y times vector l of X
-  double yy[3] = {};     ///< of the vectors of Y with each other: 00, 01, 11
+/// Vectors that are solved for at once.
+constexpr std::size_t kBlock = 4;
+
+struct BlockProducts {
+  double yx[kBlock][kBlock];  ///< row k, column l: vector k of Y times vector l of X
+  double yy[kBlock][kBlock];  ///< of the vectors of Y with each other
 };
 
 struct ReducedKernels {
@@ -74,9 +77,10 @@ struct ReducedKernels {
   /// frames turned by scale * step.
   void (*move)(const RodView&, const FrameView& frames, const TurnView& step, double scale, const FrameView& moved);
 
-  /// Y = (Hessian + shift * 1)^-1 X mix^T after eliminate(), for two vectors at once: six numbers per element, those of
-  /// the two vectors side by side. `mix` is a 2x2 matrix by rows. X and Y must not overlap.
-  PairProducts (*solvePair)(const RodView&, const FactorRow*, const double (&mix)[4], const double* x, double* y);
+  /// Y = (Hessian + shift * 1)^-1 mix X after eliminate(), for a block of vectors, of which each component of an
+  /// element lies side by side: 3 * kBlock numbers per element. X and Y must not overlap.
+  BlockProducts (*solveBlock)(const RodView&, const FactorRow*, const double (&mix)[kBlock][kBlock], const double* x,
+                              double* y);
 
   /// Turn of every bend and strain of every element.
   void (*strains)(const RodView&, const FrameView&, const TurnView& angle, const TurnView& strain);
