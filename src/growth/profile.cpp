@@ -22,17 +22,21 @@ struct Rate {
   double operator()(const ApicalFlatProfile& p) const { return s >= zoneStart(p.zone_length, L) ? p.rate : 0.0; }
 };
 
-struct Velocity {
-  double s, L;
+/// Velocity as a function of s alone: what the points of an organ have in common is worked out once.
+struct VelocityAlong {
+  double L;
 
-  double operator()(const LogisticProfile& p) const {
+  auto operator()(const LogisticProfile& p) const {
     const double per_length = p.steepness / p.zone_length;
     const double u0 = -per_length * (L - p.zone_length);
-    return p.rate / per_length * (softplus(u0 + per_length * s) - softplus(u0));
+    const double scale = p.rate / per_length;
+    return [=, at_base = softplus(u0)](double s) { return scale * (softplus(u0 + per_length * s) - at_base); };
   }
-  double operator()(const UniformProfile& p) const { return p.rate * s; }
-  double operator()(const ApicalFlatProfile& p) const {
-    return p.rate * std::max(0.0, s - zoneStart(p.zone_length, L));
+  auto operator()(const UniformProfile& p) const {
+    return [rate = p.rate](double s) { return rate * s; };
+  }
+  auto operator()(const ApicalFlatProfile& p) const {
+    return [rate = p.rate, start = zoneStart(p.zone_length, L)](double s) { return rate * std::max(0.0, s - start); };
   }
 };
 
@@ -40,6 +44,12 @@ struct Velocity {
 
 double rate(const Profile& profile, double s, double L) { return std::visit(Rate{s, L}, profile); }
 
-double velocity(const Profile& profile, double s, double L) { return std::visit(Velocity{s, L}, profile); }
+double velocity(const Profile& profile, double s, double L) {
+  return std::visit([=](const auto& p) { return VelocityAlong{L}(p)(s); }, profile);
+}
+
+void velocities(const Profile& profile, double L, std::vector<double>& s) {
+  std::visit([&](const auto& p) { std::transform(s.begin(), s.end(), s.begin(), VelocityAlong{L}(p)); }, profile);
+}
 
 }  // namespace sensory_growth::growth

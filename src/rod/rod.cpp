@@ -37,8 +37,7 @@ double Rod::vertexLength(std::size_t vertex) const {
 }
 
 Quaternion Rod::bendFrame(std::size_t bend) const {
-  const Quaternion& below = bend > 0 ? elements[bend - 1].frame : base.frame;
-  return (below * exp(0.5 * voronoiLength(bend) * bends[bend].curvature)).normalized();
+  return halfWay(bend > 0 ? elements[bend - 1].frame : base.frame, elements[bend].frame);
 }
 
 Pose Rod::apex() const {

@@ -48,6 +48,12 @@ Vector3 log(const Quaternion& q) {
   return (2.0 * sign * std::atan2(sine, std::abs(q.w())) / sine) * q.vec();
 }
 
+Quaternion halfWay(const Quaternion& a, const Quaternion& b) {
+  // q and -q are the same rotation; the sum is half-way on the side where they are close.
+  const double sign = a.dot(b) < 0.0 ? -1.0 : 1.0;
+  return Quaternion(a.coeffs() + sign * b.coeffs()).normalized();
+}
+
 Matrix3 leftJacobian(const Vector3& theta) {
   const double phi2 = theta.squaredNorm();
   const double phi = std::sqrt(phi2);

@@ -23,6 +23,9 @@ Quaternion exp(const Vector3& theta);
 /// Rotation vector [rad] of a unit quaternion, |log q| <= pi; exact to 1e-15 from 1e-9 to 3.1 rad.
 Vector3 log(const Quaternion& q);
 
+/// Half-way between two unit quaternions along the shortest turn.
+Quaternion halfWay(const Quaternion& a, const Quaternion& b);
+
 /// J_l(theta): exp(theta + d) = exp(J_l(theta) d) exp(theta) to first order in d.
 Matrix3 leftJacobian(const Vector3& theta);
 
