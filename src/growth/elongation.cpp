@@ -46,7 +46,8 @@ const GrowthStrain& Elongation::strain(const Profile& profile, const rod::Rod& r
   for (std::size_t e = 0; e < n; ++e) strain_.elements[e] = dt / 6.0 * rates[e];
   const auto addStage = [&](const std::vector<double>& slope, double node, double weight) {
     for (std::size_t e = 0; e < n; ++e) stage_[e] = initial_[e] * std::exp(node * dt * slope[e]);
-    cellRates(profile, n, [&](std::size_t e) { return stage_[e]; }, slope_);
+    cellRates(
+        profile, n, [&](std::size_t e) { return stage_[e]; }, slope_);
     for (std::size_t e = 0; e < n; ++e) strain_.elements[e] += weight * dt * slope_[e];
   };
   addStage(rates, 0.5, 1.0 / 3.0);

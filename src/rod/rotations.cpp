@@ -31,15 +31,6 @@ Matrix3 hat(const Vector3& a) {
   return m;
 }
 
-Quaternion exp(const Vector3& theta) {
-  const double phi = theta.norm();
-  const double scale = phi > 0.0 ? std::sin(0.5 * phi) / phi : 0.5;
-  Quaternion q;
-  q.w() = std::cos(0.5 * phi);
-  q.vec() = scale * theta;
-  return q;
-}
-
 Vector3 log(const Quaternion& q) {
   const double sine = q.vec().norm();
   if (sine == 0.0) return Vector3::Zero();

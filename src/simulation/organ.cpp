@@ -78,9 +78,8 @@ void Organ::undo() {
 
 /// Expects rates_ and drive_ at the start of the part, as longestPart() leaves them.
 OrganFault Organ::growAndRelax(double dt, const growth::Environment& environment) {
-  const growth::GrowthStrain& strain = scenario_.elongation
-                                           ? elongation_.strain(scenario_.profile, rod_, rates_, dt)
-                                           : elongation_.strainAtFixedLength(rod_, rates_, dt);
+  const growth::GrowthStrain& strain = scenario_.elongation ? elongation_.strain(scenario_.profile, rod_, rates_, dt)
+                                                            : elongation_.strainAtFixedLength(rod_, rates_, dt);
   if (scenario_.elongation) growth::elongate(rod_, strain);
   growth::predict(rod_, scenario_.bending, strain, drive_);
   rod_.rebuild();
