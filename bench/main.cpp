@@ -2,10 +2,10 @@
 
 #include <benchmark/benchmark.h>
 
-#include "sensory_growth/mechanics/instruction_set.h"
+#include "sensory_growth/rod/instruction_set.h"
 
 int main(int argc, char** argv) {
-  using namespace sensory_growth::mechanics;
+  using namespace sensory_growth::rod;
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   benchmark::AddCustomContext("instruction_set", name(instructionSet()));

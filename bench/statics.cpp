@@ -3,20 +3,20 @@
 #include <benchmark/benchmark.h>
 
 #include "rods.h"
-#include "sensory_growth/mechanics/instruction_set.h"
 #include "sensory_growth/mechanics/static_equilibrium.h"
+#include "sensory_growth/rod/instruction_set.h"
 
 namespace sensory_growth::bench {
 namespace {
 
-using mechanics::InstructionSet;
 using mechanics::RelaxationReason;
+using rod::InstructionSet;
 
 /// Uses an instruction set as long as it lives.
 class With {
  public:
-  explicit With(InstructionSet set) : before_(mechanics::instructionSet()) { mechanics::useInstructionSet(set); }
-  ~With() { mechanics::useInstructionSet(before_); }
+  explicit With(InstructionSet set) : before_(rod::instructionSet()) { rod::useInstructionSet(set); }
+  ~With() { rod::useInstructionSet(before_); }
   With(const With&) = delete;
   With& operator=(const With&) = delete;
 
@@ -53,8 +53,8 @@ void relaxFromStraight(benchmark::State& state, const LoadedRod& start) {
 }
 
 const bool registered = [] {
-  for (const InstructionSet set : mechanics::availableInstructionSets()) {
-    const std::string name = std::string("newton/") + mechanics::name(set);
+  for (const InstructionSet set : rod::availableInstructionSets()) {
+    const std::string name = std::string("newton/") + rod::name(set);
     benchmark::RegisterBenchmark(name.c_str(), [set](benchmark::State& state) { iterate(state, set); })
         ->ArgNames({"n", "iterations"})
         ->ArgsProduct({{100, 1000, 10000, 100000}, {1, 3}})

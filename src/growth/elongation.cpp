@@ -1,7 +1,8 @@
 #include "sensory_growth/growth/elongation.h"
 
-#include <cmath>
 #include <cstddef>
+
+#include "growth/kernels/profile_kernels.h"
 
 namespace sensory_growth::growth {
 namespace {
@@ -42,10 +43,11 @@ const GrowthStrain& Elongation::strain(const Profile& profile, const rod::Rod& r
   strain_.bends.resize(n);
   strain_.lengths.resize(n);
 
+  const kernels::ProfileKernels& loops = kernels::profileKernels();
   // Classical RK4 for y = log(length), y' = rate(lengths).
   for (std::size_t e = 0; e < n; ++e) strain_.elements[e] = dt / 6.0 * rates[e];
   const auto addStage = [&](const std::vector<double>& slope, double node, double weight) {
-    for (std::size_t e = 0; e < n; ++e) stage_[e] = initial_[e] * std::exp(node * dt * slope[e]);
+    loops.grow(initial_.data(), slope.data(), node * dt, stage_.data(), n);
     cellRates(
         profile, n, [&](std::size_t e) { return stage_[e]; }, slope_);
     for (std::size_t e = 0; e < n; ++e) strain_.elements[e] += weight * dt * slope_[e];
@@ -54,14 +56,12 @@ const GrowthStrain& Elongation::strain(const Profile& profile, const rod::Rod& r
   addStage(slope_, 0.5, 1.0 / 3.0);
   addStage(slope_, 1.0, 1.0 / 6.0);
 
-  double old_below = 0.0;
-  double new_below = 0.0;
-  for (std::size_t e = 0; e < n; ++e) {
-    strain_.lengths[e] = initial_[e] * std::exp(strain_.elements[e]);
-    strain_.bends[e] = std::log((new_below + strain_.lengths[e]) / (old_below + initial_[e]));
-    old_below = initial_[e];
-    new_below = strain_.lengths[e];
+  loops.grow(initial_.data(), strain_.elements.data(), 1.0, strain_.lengths.data(), n);
+  strain_.bends[0] = strain_.lengths[0] / initial_[0];
+  for (std::size_t e = 1; e < n; ++e) {
+    strain_.bends[e] = (strain_.lengths[e - 1] + strain_.lengths[e]) / (initial_[e - 1] + initial_[e]);
   }
+  loops.logarithm(strain_.bends.data(), n);
   return strain_;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "growth/kernels/profile_kernels.h"
+
 namespace sensory_growth::growth {
 namespace {
 
@@ -22,21 +24,36 @@ struct Rate {
   double operator()(const ApicalFlatProfile& p) const { return s >= zoneStart(p.zone_length, L) ? p.rate : 0.0; }
 };
 
-/// Velocity as a function of s alone: what the points of an organ have in common is worked out once.
-struct VelocityAlong {
-  double L;
+struct Velocity {
+  double s, L;
 
-  auto operator()(const LogisticProfile& p) const {
+  double operator()(const LogisticProfile& p) const {
+    const double per_length = p.steepness / p.zone_length;
+    const double u0 = -per_length * (L - p.zone_length);
+    return p.rate / per_length * (softplus(u0 + per_length * s) - softplus(u0));
+  }
+  double operator()(const UniformProfile& p) const { return p.rate * s; }
+  double operator()(const ApicalFlatProfile& p) const {
+    return p.rate * std::max(0.0, s - zoneStart(p.zone_length, L));
+  }
+};
+
+/// The same for many points; differs from Velocity by round-off.
+struct Velocities {
+  double L;
+  std::vector<double>& s;
+
+  void operator()(const LogisticProfile& p) const {
     const double per_length = p.steepness / p.zone_length;
     const double u0 = -per_length * (L - p.zone_length);
     const double scale = p.rate / per_length;
-    return [=, at_base = softplus(u0)](double s) { return scale * (softplus(u0 + per_length * s) - at_base); };
+    const double at_base = scale * softplus(u0);
+    kernels::profileKernels().softplus({u0, per_length, scale}, s.data(), s.size());
+    for (double& v : s) v -= at_base;
   }
-  auto operator()(const UniformProfile& p) const {
-    return [rate = p.rate](double s) { return rate * s; };
-  }
-  auto operator()(const ApicalFlatProfile& p) const {
-    return [rate = p.rate, start = zoneStart(p.zone_length, L)](double s) { return rate * std::max(0.0, s - start); };
+  template <typename Plain>
+  void operator()(const Plain& p) const {
+    for (double& v : s) v = Velocity{v, L}(p);
   }
 };
 
@@ -44,12 +61,8 @@ struct VelocityAlong {
 
 double rate(const Profile& profile, double s, double L) { return std::visit(Rate{s, L}, profile); }
 
-double velocity(const Profile& profile, double s, double L) {
-  return std::visit([=](const auto& p) { return VelocityAlong{L}(p)(s); }, profile);
-}
+double velocity(const Profile& profile, double s, double L) { return std::visit(Velocity{s, L}, profile); }
 
-void velocities(const Profile& profile, double L, std::vector<double>& s) {
-  std::visit([&](const auto& p) { std::transform(s.begin(), s.end(), s.begin(), VelocityAlong{L}(p)); }, profile);
-}
+void velocities(const Profile& profile, double L, std::vector<double>& s) { std::visit(Velocities{L, s}, profile); }
 
 }  // namespace sensory_growth::growth
