@@ -1,22 +1,23 @@
 #include "sensory_growth/growth/elongation.h"
 
-#include <cmath>
 #include <cstddef>
+
+#include "growth/kernels/profile_kernels.h"
 
 namespace sensory_growth::growth {
 namespace {
 
-/// Rates of elements of the given lengths: the difference of the velocities of their ends over their length.
-void cellRates(const Profile& profile, const std::vector<double>& lengths, std::vector<double>& rates) {
-  double L = 0.0;
-  for (const double length : lengths) L += length;
-  rates.resize(lengths.size());
+/// Rates of n elements of given lengths: the difference of the velocities of their ends over their length.
+template <typename Length>
+void cellRates(const Profile& profile, std::size_t n, const Length& length, std::vector<double>& rates) {
+  rates.resize(n);
   double s = 0.0;
+  for (std::size_t e = 0; e < n; ++e) rates[e] = s += length(e);
+  velocities(profile, s, rates);
   double below = 0.0;
-  for (std::size_t e = 0; e < lengths.size(); ++e) {
-    s += lengths[e];
-    const double above = velocity(profile, s, L);
-    rates[e] = (above - below) / lengths[e];
+  for (std::size_t e = 0; e < n; ++e) {
+    const double above = rates[e];
+    rates[e] = (above - below) / length(e);
     below = above;
   }
 }
@@ -29,48 +30,48 @@ void restLengths(const rod::Rod& rod, std::vector<double>& lengths) {
 }  // namespace
 
 void elementRates(const Profile& profile, const rod::Rod& rod, std::vector<double>& rates) {
-  std::vector<double> lengths;
-  restLengths(rod, lengths);
-  cellRates(profile, lengths, rates);
+  const auto length = [&](std::size_t e) { return rod.elements[e].rest_length; };
+  cellRates(profile, rod.size(), length, rates);
 }
 
-const GrowthStrain& Elongation::strain(const Profile& profile, const rod::Rod& rod, double dt) {
+const GrowthStrain& Elongation::strain(const Profile& profile, const rod::Rod& rod, const std::vector<double>& rates,
+                                       double dt) {
   const std::size_t n = rod.size();
   restLengths(rod, initial_);
-
-  // Classical RK4 for y = log(length), y' = rate(lengths).
-  constexpr double kNode[] = {0.0, 0.5, 0.5, 1.0};
-  constexpr double kWeight[] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0};
-  sum_.assign(n, 0.0);
-  stage_ = initial_;
-  for (int stage = 0; stage < 4; ++stage) {
-    if (stage > 0) {
-      for (std::size_t e = 0; e < n; ++e) stage_[e] = initial_[e] * std::exp(kNode[stage] * dt * slope_[e]);
-    }
-    cellRates(profile, stage_, slope_);
-    for (std::size_t e = 0; e < n; ++e) sum_[e] += kWeight[stage] * slope_[e];
-  }
-
+  stage_.resize(n);
   strain_.elements.resize(n);
   strain_.bends.resize(n);
-  for (std::size_t e = 0; e < n; ++e) {
-    strain_.elements[e] = dt * sum_[e];
-    const double below = e > 0 ? initial_[e - 1] : 0.0;
-    const double gain =
-        (e > 0 ? below * std::expm1(strain_.elements[e - 1]) : 0.0) + initial_[e] * std::expm1(strain_.elements[e]);
-    strain_.bends[e] = std::log1p(gain / (below + initial_[e]));
+  strain_.lengths.resize(n);
+
+  const kernels::ProfileKernels& loops = kernels::profileKernels();
+  // Classical RK4 for y = log(length), y' = rate(lengths).
+  for (std::size_t e = 0; e < n; ++e) strain_.elements[e] = dt / 6.0 * rates[e];
+  const auto addStage = [&](const std::vector<double>& slope, double node, double weight) {
+    loops.grow(initial_.data(), slope.data(), node * dt, stage_.data(), n);
+    cellRates(
+        profile, n, [&](std::size_t e) { return stage_[e]; }, slope_);
+    for (std::size_t e = 0; e < n; ++e) strain_.elements[e] += weight * dt * slope_[e];
+  };
+  addStage(rates, 0.5, 1.0 / 3.0);
+  addStage(slope_, 0.5, 1.0 / 3.0);
+  addStage(slope_, 1.0, 1.0 / 6.0);
+
+  loops.grow(initial_.data(), strain_.elements.data(), 1.0, strain_.lengths.data(), n);
+  strain_.bends[0] = strain_.lengths[0] / initial_[0];
+  for (std::size_t e = 1; e < n; ++e) {
+    strain_.bends[e] = (strain_.lengths[e - 1] + strain_.lengths[e]) / (initial_[e - 1] + initial_[e]);
   }
+  loops.logarithm(strain_.bends.data(), n);
   return strain_;
 }
 
-const GrowthStrain& Elongation::strainAtFixedLength(const Profile& profile, const rod::Rod& rod, double dt) {
-  restLengths(rod, initial_);
-  cellRates(profile, initial_, slope_);
+const GrowthStrain& Elongation::strainAtFixedLength(const rod::Rod& rod, const std::vector<double>& rates, double dt) {
+  restLengths(rod, strain_.lengths);
   strain_.elements.resize(rod.size());
   strain_.bends.resize(rod.size());
   for (std::size_t e = 0; e < rod.size(); ++e) {
-    strain_.elements[e] = dt * slope_[e];
-    strain_.bends[e] = rod::voronoiMean(rod, e, [&](std::size_t k) { return dt * slope_[k]; });
+    strain_.elements[e] = dt * rates[e];
+    strain_.bends[e] = rod::voronoiMean(rod, e, [&](std::size_t k) { return dt * rates[k]; });
   }
   return strain_;
 }
@@ -81,7 +82,7 @@ void elongate(rod::Rod& rod, const GrowthStrain& strain) {
   for (std::size_t e = 0; e < rod.size(); ++e) {
     double& length = rod.elements[e].rest_length;
     const double old_length = length;
-    length *= std::exp(strain.elements[e]);
+    length = strain.lengths[e];
     rod::Bend& bend = rod.bends[e];
     const double diluted = bend.rest_curvature.z() * ((old_below + old_length) / (new_below + length));
     bend.curvature.z() += diluted - bend.rest_curvature.z();

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "growth/kernels/profile_kernels.h"
+
 namespace sensory_growth::growth {
 namespace {
 
@@ -36,10 +38,31 @@ struct Velocity {
   }
 };
 
+/// The same for many points; differs from Velocity by round-off.
+struct Velocities {
+  double L;
+  std::vector<double>& s;
+
+  void operator()(const LogisticProfile& p) const {
+    const double per_length = p.steepness / p.zone_length;
+    const double u0 = -per_length * (L - p.zone_length);
+    const double scale = p.rate / per_length;
+    const double at_base = scale * softplus(u0);
+    kernels::profileKernels().softplus({u0, per_length, scale}, s.data(), s.size());
+    for (double& v : s) v -= at_base;
+  }
+  template <typename Plain>
+  void operator()(const Plain& p) const {
+    for (double& v : s) v = Velocity{v, L}(p);
+  }
+};
+
 }  // namespace
 
 double rate(const Profile& profile, double s, double L) { return std::visit(Rate{s, L}, profile); }
 
 double velocity(const Profile& profile, double s, double L) { return std::visit(Velocity{s, L}, profile); }
+
+void velocities(const Profile& profile, double L, std::vector<double>& s) { std::visit(Velocities{L, s}, profile); }
 
 }  // namespace sensory_growth::growth

@@ -104,15 +104,14 @@ std::size_t divide(Rod& rod, const std::vector<bool>& selected, DivisionMode mod
 
 std::size_t divideLongElements(Rod& rod, double longest, DivisionMode mode) {
   if (!(longest > 0.0)) throw std::invalid_argument("the longest element must be positive");
+  const auto is_too_long = [longest](const Element& element) { return element.rest_length > longest; };
   std::size_t count = 0;
-  std::vector<bool> too_long;
-  while (true) {
-    too_long.assign(rod.size(), false);
-    for (std::size_t e = 0; e < rod.size(); ++e) too_long[e] = rod.elements[e].rest_length > longest;
-    const std::size_t divided = divide(rod, too_long, mode);
-    if (divided == 0) return count;
-    count += divided;
+  while (std::any_of(rod.elements.begin(), rod.elements.end(), is_too_long)) {
+    std::vector<bool> too_long(rod.size());
+    std::transform(rod.elements.begin(), rod.elements.end(), too_long.begin(), is_too_long);
+    count += divide(rod, too_long, mode);
   }
+  return count;
 }
 
 }  // namespace sensory_growth::rod

@@ -6,6 +6,14 @@
 #include <string>
 
 namespace sensory_growth::rod {
+namespace {
+
+/// From the lower vertex of the element to its upper one [m].
+inline Vector3 chord(const Element& element) {
+  return element.rest_length * (element.frame * (Vector3::UnitZ() + element.strain));
+}
+
+}  // namespace
 
 double Rod::restLength() const {
   double sum = 0.0;
@@ -37,8 +45,7 @@ double Rod::vertexLength(std::size_t vertex) const {
 }
 
 Quaternion Rod::bendFrame(std::size_t bend) const {
-  const Quaternion& below = bend > 0 ? elements[bend - 1].frame : base.frame;
-  return (below * exp(0.5 * voronoiLength(bend) * bends[bend].curvature)).normalized();
+  return halfWay(bend > 0 ? elements[bend - 1].frame : base.frame, elements[bend].frame);
 }
 
 Pose Rod::apex() const {
@@ -59,21 +66,22 @@ Pose Rod::at(double s) const {
 }
 
 void Rod::rebuild() {
+  for (std::size_t e = 0; e < size(); ++e) elements[e].frame = exp(voronoiLength(e) * bends[e].curvature);
+  // Frames are normalised beside the chain, not in it: what a product of n unit quaternions loses is round-off.
   Quaternion frame = base.frame;
+  Vector3 position = base.position;
+  vertices.front().position = position;
   for (std::size_t e = 0; e < size(); ++e) {
-    frame = (frame * exp(voronoiLength(e) * bends[e].curvature)).normalized();
-    elements[e].frame = frame;
+    frame = frame * elements[e].frame;
+    elements[e].frame = frame.normalized();
+    vertices[e + 1].position = position += chord(elements[e]);
   }
-  rebuildPositions();
 }
 
 void Rod::rebuildPositions() {
-  vertices.front().position = base.position;
-  for (std::size_t e = 0; e < size(); ++e) {
-    const Element& element = elements[e];
-    vertices[e + 1].position =
-        vertices[e].position + element.rest_length * (element.frame * (Vector3::UnitZ() + element.strain));
-  }
+  Vector3 position = base.position;
+  vertices.front().position = position;
+  for (std::size_t e = 0; e < size(); ++e) vertices[e + 1].position = position += chord(elements[e]);
 }
 
 Rod straightRod(const Pose& base, double length, std::size_t elements, const Section& section) {

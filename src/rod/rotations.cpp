@@ -31,21 +31,18 @@ Matrix3 hat(const Vector3& a) {
   return m;
 }
 
-Quaternion exp(const Vector3& theta) {
-  const double phi = theta.norm();
-  const double scale = phi > 0.0 ? std::sin(0.5 * phi) / phi : 0.5;
-  Quaternion q;
-  q.w() = std::cos(0.5 * phi);
-  q.vec() = scale * theta;
-  return q;
-}
-
 Vector3 log(const Quaternion& q) {
   const double sine = q.vec().norm();
   if (sine == 0.0) return Vector3::Zero();
   // q and -q are the same rotation; the one with w >= 0 turns by at most pi.
   const double sign = q.w() < 0.0 ? -1.0 : 1.0;
   return (2.0 * sign * std::atan2(sine, std::abs(q.w())) / sine) * q.vec();
+}
+
+Quaternion halfWay(const Quaternion& a, const Quaternion& b) {
+  // q and -q are the same rotation; the sum is half-way on the side where they are close.
+  const double sign = a.dot(b) < 0.0 ? -1.0 : 1.0;
+  return Quaternion(a.coeffs() + sign * b.coeffs()).normalized();
 }
 
 Matrix3 leftJacobian(const Vector3& theta) {

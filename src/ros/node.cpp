@@ -121,7 +121,7 @@ Node::Node(const Parameters& parameters, LoadedScenario loaded)
       intake_(node_, private_node_, parameters.world_frame, counters_,
               {[this](const simulation::StimulusCommand& command) { return loop_.send(command); },
                [this] { loop_.refreshStatus(); }}),
-      loop_(simulation::Simulation(std::move(loaded.scenario)),
+      loop_(simulation::Simulation(std::move(loaded.scenario), parameters.threads),
             {step_, parameters.real_time_factor, parameters.start_paused}, clock_, counters_, publishers_),
       topic_spinner_(1),
       control_spinner_(1, &control_queue_),

@@ -37,6 +37,7 @@ void visit(Parameters& p, Visitor& parameter) {
   parameter.count("stations", p.stations, {0, 100});
   parameter.choice("clock_mode", p.clock_mode, {{"publish", ClockMode::publish}, {"wall", ClockMode::wall}});
   parameter.number("clock_rate", p.clock_rate, {1.0, 1e5});
+  parameter.count("threads", p.threads, {0, 1024});
   parameter.number("growth_time_scale", p.growth_time_scale, {kTiny, kHuge}, Need::required);
   parameter.number("real_time_factor", p.real_time_factor, {0.0, kHuge});
   parameter.flag("start_paused", p.start_paused);

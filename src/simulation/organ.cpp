@@ -53,7 +53,9 @@ const OrganReport& Organ::advance(double dt, const growth::Environment& environm
     const double parts = std::max(1.0, std::ceil(remaining / limit * (1.0 - 1e-12)));
     const double part = remaining / parts;
 
-    before_part_ = rod_;
+    // The first part starts where the step does, and one part is the rule.
+    rod::Rod& before_part = report_.substeps == 0 ? before_step_ : before_part_;
+    if (report_.substeps > 0) before_part_ = rod_;
     const OrganFault fault = growAndRelax(part, environment);
     if (fault == OrganFault::too_many_elements) return giveUp(fault);
     if (fault == OrganFault::none) {
@@ -61,7 +63,7 @@ const OrganReport& Organ::advance(double dt, const growth::Environment& environm
       longest_allowed = dt;
       ++report_.substeps;
     } else {
-      rod_ = before_part_;
+      rod_ = before_part;
       longest_allowed = 0.5 * part;
       ++report_.retries;
     }
@@ -74,11 +76,10 @@ void Organ::undo() {
   report_ = report_before_step_;
 }
 
-/// Expects drive_ at the start of the part, as longestPart() leaves it.
+/// Expects rates_ and drive_ at the start of the part, as longestPart() leaves them.
 OrganFault Organ::growAndRelax(double dt, const growth::Environment& environment) {
-  const growth::GrowthStrain& strain = scenario_.elongation
-                                           ? elongation_.strain(scenario_.profile, rod_, dt)
-                                           : elongation_.strainAtFixedLength(scenario_.profile, rod_, dt);
+  const growth::GrowthStrain& strain = scenario_.elongation ? elongation_.strain(scenario_.profile, rod_, rates_, dt)
+                                                            : elongation_.strainAtFixedLength(rod_, rates_, dt);
   if (scenario_.elongation) growth::elongate(rod_, strain);
   growth::predict(rod_, scenario_.bending, strain, drive_);
   rod_.rebuild();
@@ -105,7 +106,7 @@ OrganFault Organ::relax() {
   return report_.relaxation.ok() ? OrganFault::none : OrganFault::relaxation;
 }
 
-/// Leaves the drive of the organ as it stands in drive_.
+/// Leaves the growth rates and the drive of the organ as it stands in rates_ and drive_.
 double Organ::longestPart(const growth::Environment& environment) {
   const StepLimits& limits = stepping_.limits;
   const growth::BendingLaw& law = scenario_.bending;

@@ -17,7 +17,7 @@ std::vector<Organ> buildOrgans(const Scenario& scenario) {
 
 }  // namespace
 
-Simulation::Simulation(Scenario scenario) : scenario_(std::move(scenario)) {
+Simulation::Simulation(Scenario scenario, int threads) : scenario_(std::move(scenario)), workers_(threads) {
   const double step = scenario_.stepping.step;
   if (!(step > 0.0) || !std::isfinite(step)) throw std::invalid_argument("stepping.step must be positive and finite");
   const auto earlier = [](const TimedStimulus& a, const TimedStimulus& b) { return a.time < b.time; };
@@ -38,12 +38,22 @@ void Simulation::reset() {
 }
 
 StepReport Simulation::step() {
-  for (std::size_t i = 0; i < organs_.size(); ++i) {
-    const OrganReport& report = organs_[i].advance(scenario_.stepping.step, environment_);
-    if (report.ok()) continue;
-    for (std::size_t done = 0; done < i; ++done) organs_[done].undo();
-    return {false, "organ '" + organs_[i].scenario().id + "' failed in step " + std::to_string(step_index_ + 1) + ": " +
-                       describe(report)};
+  try {
+    workers_.forEach(organs_.size(),
+                     [this](std::size_t i) { organs_[i].advance(scenario_.stepping.step, environment_); });
+  } catch (...) {
+    for (Organ& organ : organs_) organ.undo();
+    throw;
+  }
+  const auto has_failed = [](const Organ& organ) { return !organ.report().ok(); };
+  const auto failed = std::find_if(organs_.begin(), organs_.end(), has_failed);
+  if (failed != organs_.end()) {
+    // The first that failed keeps its report; advance() has left it as it was.
+    for (auto organ = organs_.begin(); organ != organs_.end(); ++organ) {
+      if (organ != failed) organ->undo();
+    }
+    return {false, "organ '" + failed->scenario().id + "' failed in step " + std::to_string(step_index_ + 1) + ": " +
+                       describe(failed->report())};
   }
   ++step_index_;
   applyDue();

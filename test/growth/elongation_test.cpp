@@ -17,11 +17,17 @@ rod::Rod organ(double length, std::size_t elements = 20) {
   return rod::straightRod({}, length, elements, support::section(0.01, 1.0, 1.0));
 }
 
+const GrowthStrain& strainOf(Elongation& elongation, const Profile& profile, const rod::Rod& rod, double dt) {
+  std::vector<double> rates;
+  elementRates(profile, rod, rates);
+  return elongation.strain(profile, rod, rates, dt);
+}
+
 double grownLength(const Profile& profile, double length, double time, double dt) {
   rod::Rod rod = organ(length);
   Elongation elongation;
   const auto steps = std::lround(time / dt);
-  for (long i = 0; i < steps; ++i) elongate(rod, elongation.strain(profile, rod, dt));
+  for (long i = 0; i < steps; ++i) elongate(rod, strainOf(elongation, profile, rod, dt));
   return rod.restLength();
 }
 
@@ -64,7 +70,7 @@ TEST(Growth, CarriesBendingCurvatureAndTwistAngle) {
   rod::Rod rod = support::randomRod(generator, 10);
   const rod::Rod before = rod;
   Elongation elongation;
-  elongate(rod, elongation.strain(UniformProfile{1.0}, rod, 0.8));
+  elongate(rod, strainOf(elongation, UniformProfile{1.0}, rod, 0.8));
   for (std::size_t j = 0; j < rod.size(); ++j) {
     EXPECT_EQ(rod.bends[j].rest_curvature.x(), before.bends[j].rest_curvature.x());
     EXPECT_EQ(rod.bends[j].rest_curvature.y(), before.bends[j].rest_curvature.y());
@@ -79,7 +85,7 @@ TEST(Growth, DriftsPassively) {
   rod::Rod rod = organ(1.0, 50);  // V12d: the turning angle grows with the length at constant curvature
   for (rod::Bend& b : rod.bends) b.rest_curvature = b.curvature = {0.0, 0.5, 0.0};
   Elongation elongation;
-  for (int i = 0; i < 10; ++i) elongate(rod, elongation.strain(UniformProfile{1.0}, rod, 0.1));
+  for (int i = 0; i < 10; ++i) elongate(rod, strainOf(elongation, UniformProfile{1.0}, rod, 0.1));
   rod.rebuild();
   const rod::Vector3 tangent = rod.apex().frame * rod::Vector3::UnitZ();
   EXPECT_NEAR(std::atan2(tangent.x(), tangent.z()), 1.359140914, 1e-9);
@@ -90,7 +96,7 @@ TEST(Growth, LengthsStayPositiveForAnyStep) {
   Elongation elongation;
   for (const double dt : {1e-6, 1.0, 10.0}) {
     rod::Rod rod = organ(0.3);
-    elongate(rod, elongation.strain(LogisticProfile{1.0, 1.0, 15.0}, rod, dt));
+    elongate(rod, strainOf(elongation, LogisticProfile{1.0, 1.0, 15.0}, rod, dt));
     for (const rod::Element& e : rod.elements) EXPECT_GT(e.rest_length, 0.0);
   }
 }
@@ -101,7 +107,7 @@ TEST(Growth, StrainOfABendIsThatOfItsVoronoiCell) {
   const Profile profile = LogisticProfile{1.0, 0.4, 5.0};
   Elongation elongation;
   rod::Rod after = before;
-  const GrowthStrain free = elongation.strain(profile, before, 0.3);
+  const GrowthStrain free = strainOf(elongation, profile, before, 0.3);
   elongate(after, free);
   for (std::size_t j = 0; j < before.size(); ++j) {
     EXPECT_NEAR(free.bends[j], std::log(after.voronoiLength(j) / before.voronoiLength(j)), 1e-14);
@@ -113,7 +119,9 @@ TEST(Growth, StrainAtFixedLengthIsTheLengthWeightedMeanOfTheRates) {
   const rod::Rod rod = support::randomRod(generator, 10);
   const Profile profile = ApicalFlatProfile{2.0, 0.37};
   Elongation elongation;
-  const GrowthStrain held = elongation.strainAtFixedLength(profile, rod, 0.3);
+  std::vector<double> rates;
+  elementRates(profile, rod, rates);
+  const GrowthStrain held = elongation.strainAtFixedLength(rod, rates, 0.3);
   const double L = rod.restLength();
   double s = 0.0;
   double length_below = 0.0;

@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
+
+#include "sensory_growth/rod/instruction_set.h"
 
 namespace sensory_growth::growth {
 namespace {
@@ -50,6 +53,26 @@ TEST_P(AnyProfile, VelocityIsTheIntegralOfTheRate) {
     }
   }
   EXPECT_EQ(velocity(profile, 0.0, 3.0), 0.0);
+}
+
+TEST_P(AnyProfile, VelocitiesOfManyPointsAreThoseOfEachWithAnyInstructions) {
+  const Profile& profile = GetParam().profile;
+  for (const rod::InstructionSet set : rod::availableInstructionSets()) {
+    rod::useInstructionSet(set);
+    for (const std::size_t points : {1u, 7u, 8u, 101u}) {
+      for (const double L : {0.25, 10.0, 1e4}) {
+        std::vector<double> s;
+        for (std::size_t i = 1; i <= points; ++i) s.push_back(L * static_cast<double>(i) / static_cast<double>(points));
+        std::vector<double> v = s;
+        velocities(profile, L, v);
+        for (std::size_t i = 0; i < points; ++i) {
+          EXPECT_NEAR(v[i], velocity(profile, s[i], L), 4e-15 * (1.0 + velocity(profile, s[i], L)))
+              << rod::name(set) << ", s = " << s[i] << ", L = " << L;
+        }
+      }
+    }
+  }
+  rod::useInstructionSet(rod::availableInstructionSets().back());
 }
 
 TEST_P(AnyProfile, RateIsNeverNegativeNorAboveItsMaximum) {

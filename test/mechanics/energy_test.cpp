@@ -14,7 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "reduced_energy.h"
-#include "sensory_growth/mechanics/instruction_set.h"
+#include "sensory_growth/rod/instruction_set.h"
 #include "support/rods.h"
 
 namespace sensory_growth::mechanics {
@@ -22,6 +22,10 @@ namespace {
 
 using rod::Matrix3;
 using rod::Vector3;
+
+using rod::availableInstructionSets;
+using rod::InstructionSet;
+using rod::useInstructionSet;
 
 using Case = std::tuple<unsigned, InstructionSet>;
 

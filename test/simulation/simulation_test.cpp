@@ -6,6 +6,11 @@
 #include <functional>
 #include <limits>
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <tbb/global_control.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -163,6 +168,60 @@ TEST(Simulation, EqualCommandsGiveEqualBitsAlsoAfterReset) {
   EXPECT_TRUE(again.environment().point_sources.empty());
   run(again);
   expectSameBits(once, again);
+}
+
+/// Organs that differ in size and direction under a lamp.
+Scenario meadow(std::size_t organs) {
+  Scenario scenario = shoot();
+  const OrganScenario first = scenario.organs.front();
+  scenario.organs.clear();
+  for (std::size_t i = 0; i < organs; ++i) {
+    OrganScenario organ = first;
+    organ.id = "organ_" + std::to_string(i);
+    organ.elements = 10 + 3 * i;
+    organ.base.frame = rod::exp(Vector3(0.0, 0.0, 0.4 * static_cast<double>(i))) * first.base.frame;
+    scenario.organs.push_back(organ);
+  }
+  scenario.protocol = {{0.0, lamp("lamp", {2.0, 1.0, 1.0})}};
+  return scenario;
+}
+
+TEST(Simulation, TheNumberOfThreadsChangesNoBit) {
+  const tbb::global_control enough_threads(tbb::global_control::max_allowed_parallelism, 8);
+  Simulation alone(meadow(12));
+  for (int i = 0; i < 8; ++i) ASSERT_TRUE(alone.step().ok);
+  for (const int threads : {0, 2, 5}) {
+    Simulation together(meadow(12), threads);
+    for (int i = 0; i < 8; ++i) ASSERT_TRUE(together.step().ok);
+    expectSameBits(alone, together);
+  }
+}
+
+TEST(Simulation, AFailedStepChangesNothingWithThreadsEither) {
+  const tbb::global_control enough_threads(tbb::global_control::max_allowed_parallelism, 8);
+  Scenario scenario = meadow(6);
+  scenario.stepping.limits.bend_angle = scenario.stepping.limits.total_angle = kUnlimited;
+  for (const std::size_t weak : {2u, 4u}) {  // they curl far beyond what three elements resolve
+    scenario.organs[weak].elements = 3;
+    scenario.organs[weak].longest_element = kUnlimited;
+    scenario.organs[weak].bending.sensitivities = {0.0, 0.0, 20.0, 0.0};
+  }
+  const auto run = [&](int threads) {
+    Simulation simulation(scenario, threads);
+    StepReport report;
+    for (int i = 0; i < 50 && report.ok; ++i) report = simulation.step();
+    EXPECT_FALSE(report.ok);
+    return std::make_pair(std::move(simulation), report.message);
+  };
+  const auto [alone, alone_message] = run(1);
+  const auto [together, together_message] = run(4);
+  EXPECT_THAT(alone_message, HasSubstr("organ 'organ_"));
+  EXPECT_EQ(alone_message, together_message);
+  EXPECT_EQ(alone.stepIndex(), together.stepIndex());
+  expectSameBits(alone, together);
+  Simulation before(scenario);
+  for (std::uint64_t i = 0; i < alone.stepIndex(); ++i) ASSERT_TRUE(before.step().ok);
+  expectSameBits(before, together);
 }
 
 TEST(Simulation, TimeIsTheStepIndexTimesTheStep) {

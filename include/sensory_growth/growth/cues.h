@@ -39,7 +39,21 @@ struct Sensitivities {
       0.0;  ///< distance to a point source below which its pull fades, so that it stays finite [m]
 };
 
-/// Lab-frame differential growth vector [-] sensed at `position`. Finite for every finite input.
+/// The lab-frame differential growth vector [-] as a function of place. Must not outlive its arguments.
+class CueField {
+ public:
+  CueField(const Sensitivities& sensitivities, const Environment& environment);
+
+  /// Finite for every finite input.
+  rod::Vector3 at(const rod::Vector3& position) const;
+
+ private:
+  const Sensitivities& sensitivities_;
+  const std::vector<PointSource>& point_sources_;
+  rod::Vector3 everywhere_;  ///< of the cues that come from afar
+};
+
+/// The field at one place.
 rod::Vector3 differentialGrowth(const Sensitivities& sensitivities, const Environment& environment,
                                 const rod::Vector3& position);
 

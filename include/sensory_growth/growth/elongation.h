@@ -12,28 +12,29 @@ namespace sensory_growth::growth {
 /// Relative elongation rate of every element [1/s], averaged over it exactly; size n.
 void elementRates(const Profile& profile, const rod::Rod& rod, std::vector<double>& rates);
 
-/// How much elements and bends elongate during a step.
+/// How much elements and bends grow during a step, and how long the elements are at its end.
 struct GrowthStrain {
   std::vector<double> elements;  ///< log of new over old rest length; size n
   std::vector<double> bends;     ///< the same of the Voronoi length; size n
+  std::vector<double> lengths;   ///< new rest lengths [m]; the old ones where lengths are held; size n
 };
 
 /// Integrates the logarithms of the rest lengths with classical RK4, so that lengths stay positive for every step and
 /// uniform growth is exact. Owns its work space.
 class Elongation {
  public:
-  /// Growth strain of `dt` [s]; the rod is not changed.
-  const GrowthStrain& strain(const Profile& profile, const rod::Rod& rod, double dt);
+  /// Growth strain of `dt` [s], given the elementRates() at its start; the rod is not changed.
+  const GrowthStrain& strain(const Profile& profile, const rod::Rod& rod, const std::vector<double>& rates, double dt);
 
   /// The same with all lengths held ("elongation off"): strain is rate times dt.
-  const GrowthStrain& strainAtFixedLength(const Profile& profile, const rod::Rod& rod, double dt);
+  const GrowthStrain& strainAtFixedLength(const rod::Rod& rod, const std::vector<double>& rates, double dt);
 
  private:
   GrowthStrain strain_;
-  std::vector<double> initial_, stage_, slope_, sum_;
+  std::vector<double> initial_, stage_, slope_;
 };
 
-/// Lengthens the elements by the strain and dilutes the rest twist, so that the twist angle is carried along
+/// Gives the elements their new lengths and dilutes the rest twist, so that the twist angle is carried along
 /// (model.md 3.2).
 void elongate(rod::Rod& rod, const GrowthStrain& strain);
 

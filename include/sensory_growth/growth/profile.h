@@ -3,6 +3,7 @@
 /// Growth-rate profiles along an organ (model.md 2): how fast tissue elongates at a given distance from the apex.
 
 #include <variant>
+#include <vector>
 
 namespace sensory_growth::growth {
 
@@ -32,5 +33,8 @@ double rate(const Profile& profile, double s, double L);
 /// Velocity [m/s] of the material point at s relative to the base: the integral of rate over [0, s]. Exact and free of
 /// overflow for any s in [0, L], organs shorter than their zone included.
 double velocity(const Profile& profile, double s, double L);
+
+/// The same for many points of one organ: replaces each s by its velocity.
+void velocities(const Profile& profile, double L, std::vector<double>& s);
 
 }  // namespace sensory_growth::growth

@@ -31,6 +31,7 @@ struct Parameters {
 
   ClockMode clock_mode = ClockMode::publish;
   double clock_rate = 1000.0;      ///< most messages on /clock [1/s of wall time]
+  int threads = 0;                 ///< most that organs are shared out to; 0: one per processor
   double growth_time_scale = 0.0;  ///< growth seconds per ROS second [-]; required
   double real_time_factor = 1.0;   ///< ROS seconds per wall second [-]; 0: as fast as possible
   bool start_paused = false;

@@ -8,6 +8,7 @@
 
 #include "sensory_growth/simulation/organ.h"
 #include "sensory_growth/simulation/scenario.h"
+#include "sensory_growth/simulation/workers.h"
 
 namespace sensory_growth::simulation {
 
@@ -23,12 +24,14 @@ struct StepReport {
   std::string message;  ///< names organ, element, reason and figures when not ok
 };
 
-/// Not thread-safe; one thread owns it. Equal scenarios and equal commands at equal steps give equal bits.
+/// Not thread-safe; one thread owns it. Equal scenarios and equal commands at equal steps give equal bits, whatever the
+/// number of threads that organs are shared out to.
 class Simulation {
  public:
-  /// Builds every organ in equilibrium at step 0, with the stimuli of time 0 in force.
+  /// Builds every organ in equilibrium at step 0, with the stimuli of time 0 in force. Organs advance on at most
+  /// `threads` threads at a time; 0: as many as there are processors.
   /// Throws std::invalid_argument naming the organ and the fault.
-  explicit Simulation(Scenario scenario);
+  explicit Simulation(Scenario scenario, int threads = 1);
 
   /// Advances every organ by one step, then takes the commands of the protocol that have fallen due. When an organ
   /// fails, no organ and no counter moves and the report says why.
@@ -60,6 +63,7 @@ class Simulation {
   void applyDue();
 
   Scenario scenario_;
+  Workers workers_;
   growth::Environment environment_;
   std::vector<Organ> organs_;
   std::uint64_t step_index_ = 0;

@@ -1,12 +1,10 @@
-#include "sensory_growth/mechanics/instruction_set.h"
+#include "sensory_growth/rod/instruction_set.h"
 
 #include <algorithm>
 #include <stdexcept>
 #include <string>
 
-#include "kernels/reduced_kernels.h"
-
-namespace sensory_growth::mechanics {
+namespace sensory_growth::rod {
 namespace {
 
 InstructionSet& current() {
@@ -52,20 +50,4 @@ void useInstructionSet(InstructionSet set) {
   current() = set;
 }
 
-namespace kernels {
-
-const ReducedKernels& reducedKernels() {
-  switch (instructionSet()) {
-#ifdef SENSORY_GROWTH_X86_64
-    case InstructionSet::avx512:
-      return reducedKernelsAvx512();
-    case InstructionSet::avx2:
-      return reducedKernelsAvx2();
-#endif
-    default:
-      return reducedKernelsBaseline();
-  }
-}
-
-}  // namespace kernels
-}  // namespace sensory_growth::mechanics
+}  // namespace sensory_growth::rod

@@ -1,13 +1,13 @@
 #pragma once
 
-/// Which vector instructions the mechanics runs on. The library is built for any processor of its architecture and
+/// Which vector instructions growth and mechanics run on. The library is built for any processor of its architecture and
 /// holds its innermost loops several times; the widest that the processor has is chosen when the program starts.
 ///
 /// Results differ between instruction sets by round-off; on one machine they are reproducible bit for bit.
 
 #include <vector>
 
-namespace sensory_growth::mechanics {
+namespace sensory_growth::rod {
 
 enum class InstructionSet {
   baseline,  ///< what every processor of the architecture has (SSE2 on x86-64)
@@ -24,7 +24,7 @@ std::vector<InstructionSet> availableInstructionSets();
 InstructionSet instructionSet();
 
 /// For comparisons and benchmarks. Throws std::invalid_argument if `set` is not available. Not to be called while any
-/// rod relaxes.
+/// rod grows or relaxes.
 void useInstructionSet(InstructionSet set);
 
-}  // namespace sensory_growth::mechanics
+}  // namespace sensory_growth::rod

@@ -1,0 +1,63 @@
+#include "sensory_growth/simulation/workers.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <exception>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+
+namespace sensory_growth::simulation {
+namespace {
+
+/// Keeps the exception of the smallest index.
+class FirstError {
+ public:
+  void catchFrom(std::size_t index, const std::function<void(std::size_t)>& work) {
+    try {
+      work(index);
+    } catch (...) {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (error_ && index_ < index) return;
+      error_ = std::current_exception();
+      index_ = index;
+    }
+  }
+
+  void rethrow() const {
+    if (error_) std::rethrow_exception(error_);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::exception_ptr error_;
+  std::size_t index_ = 0;
+};
+
+}  // namespace
+
+struct Workers::Arena {
+  tbb::task_arena arena;
+};
+
+Workers::Workers(int threads) {
+  if (threads < 0) throw std::invalid_argument("threads is " + std::to_string(threads) + "; it must be 0 or more");
+  if (threads != 1) arena_.reset(new Arena{tbb::task_arena(threads == 0 ? tbb::task_arena::automatic : threads)});
+}
+Workers::~Workers() = default;
+Workers::Workers(Workers&&) noexcept = default;
+Workers& Workers::operator=(Workers&&) noexcept = default;
+
+void Workers::forEach(std::size_t count, const std::function<void(std::size_t)>& work) {
+  FirstError error;
+  const auto one = [&](std::size_t i) { error.catchFrom(i, work); };
+  if (!arena_ || count < 2) {
+    for (std::size_t i = 0; i < count; ++i) one(i);
+  } else {
+    arena_->arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, one); });
+  }
+  error.rethrow();
+}
+
+}  // namespace sensory_growth::simulation
