@@ -16,6 +16,8 @@ const char* name(RelaxationReason reason) {
       return "unstable";
     case RelaxationReason::unresolved_bend:
       return "unresolved_bend";
+    case RelaxationReason::out_of_reach:
+      return "out_of_reach";
     case RelaxationReason::not_finite:
       return "not_finite";
   }
@@ -37,6 +39,8 @@ const char* advice(RelaxationReason reason) {
       return "; take shorter steps or allow more branch switches";
     case RelaxationReason::unresolved_bend:
       return "; use shorter elements";
+    case RelaxationReason::out_of_reach:
+      return "; the rod cannot meet its rigid walls or the place where its apex is held";
     case RelaxationReason::not_finite:
       return "; a length, force or curvature is not a number";
   }

@@ -22,6 +22,8 @@ std::uint8_t toConstant(RelaxationReason reason) {
       return Relaxation::UNSTABLE;
     case RelaxationReason::unresolved_bend:
       return Relaxation::UNRESOLVED_BEND;
+    case RelaxationReason::out_of_reach:
+      return Relaxation::OUT_OF_REACH;
     case RelaxationReason::not_finite:
       return Relaxation::NOT_FINITE;
   }

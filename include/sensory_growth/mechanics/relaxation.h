@@ -23,6 +23,7 @@ enum class RelaxationReason {
   line_search_failed,  ///< no step along the Newton direction lowers the energy
   unstable,            ///< every branch that was followed ended in an unstable equilibrium
   unresolved_bend,     ///< neighbouring elements turned by more than max_bend_angle: the rod needs more elements
+  out_of_reach,        ///< rigid walls or a held apex ask for what the rod cannot do
   not_finite,          ///< the input or an iterate holds NaN or infinity
 };
 

@@ -1,10 +1,12 @@
 #pragma once
 
-/// What pushes or holds a rod from outside with a force that depends on where the rod is (model.md 12.3, V).
+/// What pushes or holds a rod from outside with a force that depends on where the rod is (model.md 12.3, V). The base
+/// vertex is held anyway and feels none of it.
 
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "sensory_growth/rod/rod.h"
@@ -38,5 +40,20 @@ struct Surroundings {
 
   bool empty() const { return springs.empty() && walls.empty() && !held_apex; }
 };
+
+/// What the surroundings do to the rod, in the world frame.
+struct Reactions {
+  std::vector<rod::Vector3> springs;                ///< force of each spring [N]
+  std::vector<rod::Vector3> walls;                  ///< force of each wall, summed over the vertices [N]
+  rod::Vector3 apex_force = rod::Vector3::Zero();   ///< that holds the apex [N]
+  rod::Vector3 apex_couple = rod::Vector3::Zero();  ///< that holds the frame of the apex [N m]
+};
+
+/// The vertex a spring is tied to: the one with the nearest label, of two equally near ones that closer to the base.
+std::size_t tiedVertex(const rod::Rod& rod, const Spring& spring);
+
+/// Why the surroundings make sense for no rod (number not finite or out of range, normal not of unit length), or
+/// nothing.
+std::optional<std::string> findFault(const Surroundings& surroundings);
 
 }  // namespace sensory_growth::mechanics

@@ -1,0 +1,281 @@
+#include "sensory_growth/mechanics/supported_equilibrium.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "sensory_growth/mechanics/chain_cholesky.h"
+#include "sensory_growth/mechanics/supported_energy.h"
+
+namespace sensory_growth::mechanics {
+namespace {
+
+using rod::Vector3;
+
+constexpr double kArmijo = 1e-4;
+constexpr double kUnstable = 1e-9;  // of B / L: eigenvalues below minus this are unstable, model.md 12.4
+constexpr double kEigenvalueTolerance = 1e-6;
+constexpr double kUnresolvable = 3.0;  // rad: near pi the rotation vector of a bend jumps
+
+constexpr double kFar = 1e-2;         // of the length: beyond this rigid surroundings start out soft
+constexpr double kSoft = 1e-2;        // of the penalty, for that
+constexpr double kFirstRound = 1e-3;  // tolerance of the first round; each has a hundredth of the one before
+constexpr double kProgress = 0.1;     // of the violation is left by a round, or the penalty grows
+constexpr double kPenaltyGrowth = 10.0;
+constexpr double kLargestPenalty = 1e8;  // over the first: the rod cannot reach what holds it
+constexpr double kTested = 1e4;          // emphasis on the penalty when an instability is in doubt
+
+bool isFinite(const rod::Rod& rod, const Loads& loads) {
+  bool finite = loads.gravity.allFinite() && loads.tip_force.allFinite() && loads.line_force.allFinite() &&
+                loads.tip_couple.allFinite() && rod.base.position.allFinite() && rod.base.frame.coeffs().allFinite();
+  for (const rod::Element& e : rod.elements) {
+    const bool has_length = std::isfinite(e.rest_length) && e.rest_length > 0.0;
+    finite = finite && has_length && std::isfinite(e.mass()) && e.section.bendStiffness().allFinite() &&
+             e.section.stretchCompliance().allFinite() && e.rest_strain.allFinite() && e.strain.allFinite() &&
+             e.frame.coeffs().allFinite();
+  }
+  for (const rod::Bend& b : rod.bends) finite = finite && b.rest_curvature.allFinite();
+  for (const Spring& s : loads.surroundings.springs) {
+    finite = finite && std::isfinite(s.stiffness) && s.anchor.allFinite() && std::isfinite(s.label);
+  }
+  for (const Wall& w : loads.surroundings.walls) {
+    finite = finite && w.point.allFinite() && w.normal.allFinite() && !std::isnan(w.stiffness);
+  }
+  if (const auto& apex = loads.surroundings.held_apex) {
+    finite = finite && apex->position.allFinite() && (!apex->frame || apex->frame->coeffs().allFinite());
+  }
+  return finite;
+}
+
+double largestColumn(const Field& field) { return field.colwise().norm().maxCoeff(); }
+
+}  // namespace
+
+struct SupportedEquilibrium::Workspace {
+  SupportedEnergy energy;
+  Variation gradient, step;
+  ChainHessian hessian;
+  ChainCholesky factor;
+  Configuration here, trial;
+  Reactions reactions;
+  Vector3 first_side, second_side;  ///< directions of the world across the base: where columns buckle
+
+  /// The rod as it stands. Inextensible elements have their rest strain.
+  void readConfiguration(const rod::Rod& rod) {
+    here.frames.resize(rod.size());
+    here.strains.resize(3, static_cast<Eigen::Index>(rod.size()));
+    for (std::size_t e = 0; e < rod.size(); ++e) {
+      const rod::Element& element = rod.elements[e];
+      here.frames[e] = element.frame;
+      here.strains.col(static_cast<Eigen::Index>(e)) =
+          element.section.inextensible ? element.rest_strain : element.strain;
+    }
+    if (rod.base_support == rod::BaseSupport::frozen_first_element) here.frames.front() = rod.base.frame;
+
+    const Vector3 tangent = rod.base.frame * Vector3::UnitZ();
+    first_side = std::abs(tangent.x()) < 0.9 ? Vector3::UnitX() : Vector3::UnitY();
+    first_side = (first_side - tangent * tangent.dot(first_side)).normalized();
+    second_side = tangent.cross(first_side);
+  }
+
+  /// Twists and bends the rod evenly until its apex has the frame that holds it, so that no bend is beyond what a
+  /// rotation vector can tell.
+  void turnTowards(const rod::Quaternion& held) {
+    const Vector3 missing = rod::log(held * here.frames.back().conjugate());
+    const auto n = static_cast<double>(here.frames.size());
+    for (std::size_t e = 0; e < here.frames.size(); ++e) {
+      here.frames[e] = (rod::exp((static_cast<double>(e) + 0.5) / n * missing) * here.frames[e]).normalized();
+    }
+  }
+
+  double tryStep(double scale) {
+    trial.frames.resize(here.frames.size());
+    for (std::size_t e = 0; e < here.frames.size(); ++e) {
+      const Vector3 w = step.rotations.col(static_cast<Eigen::Index>(e));
+      trial.frames[e] = (here.frames[e] * rod::exp(scale * w)).normalized();
+    }
+    trial.strains = here.strains + scale * step.strains;
+    const double value = energy.evaluate(trial);
+    if (!(energy.largestBend() < kUnresolvable)) return std::numeric_limits<double>::infinity();
+    // The couple on the apex has no potential, but along this path it does this work.
+    return value - scale * energy.tipCouple().dot(step.rotations.rightCols<1>());
+  }
+
+  void takeTrial() { std::swap(here, trial); }
+
+  /// Newton direction; an indefinite Hessian is shifted until it is positive. The shift is remembered between
+  /// iterations. The first one vanishes with the residual: at a buckled equilibrium the free azimuth makes the Hessian
+  /// singular, and a shift that stayed would stall the last iterations. There is always a tiny one, far below the
+  /// stiffness of the rod as a whole, because a hinged rod may turn about itself.
+  void newtonDirection(double residual, double& shift) {
+    const double scale = hessian.largestDiagonal();
+    const double first = std::max(1e-6 * std::min(1.0, 1e5 * residual), 1e-14);
+    const double least = 1e-9 * energy.bendingScale() / static_cast<double>(energy.size());
+    double tau = shift;
+    while (!factor.factor(hessian, tau * scale + least)) tau = tau > 0.0 ? 4.0 * tau : first;
+    shift = tau > 4.0 * first ? tau / 4.0 : 0.0;
+    energy.newtonStep(hessian, factor, gradient, step);
+  }
+
+  /// Armijo backtracking on the true energy. True if a step was taken.
+  bool lineSearch(double value, double max_rotation) {
+    const double slope = gradient.dot(step);
+    const double noise = 1e-13 * energy.magnitude();
+    double scale = std::min(1.0, max_rotation / largestColumn(step.rotations));
+    for (int halvings = 0; halvings < 40; ++halvings, scale *= 0.5) {
+      if (tryStep(scale) <= value + kArmijo * scale * slope + noise) {
+        takeTrial();
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// A rod leaning over towards a fixed direction of the world, as material rotations. Eigenvector searches that start
+  /// from it find a reproducible direction of buckling when every direction is equally good.
+  Field lean(const Vector3& towards) const {
+    const Vector3 axis = first_side.cross(second_side).cross(towards);
+    Field field(3, here.strains.cols());
+    for (Eigen::Index e = 0; e < field.cols(); ++e) {
+      field.col(e) = (static_cast<double>(e) + 0.5) * (here.frames[static_cast<std::size_t>(e)].conjugate() * axis);
+    }
+    return field;
+  }
+
+  /// Lowest eigenpair, searched from two leanings at right angles so that no symmetry can hide it.
+  ChainEigenpair lowestEigenpair() const {
+    ChainEigenpair one = mechanics::lowestEigenpair(hessian, lean(first_side), kEigenvalueTolerance);
+    ChainEigenpair other = mechanics::lowestEigenpair(hessian, lean(second_side), kEigenvalueTolerance);
+    const bool clearly_lower = other.value < one.value - 10.0 * kEigenvalueTolerance * std::abs(one.value);
+    return clearly_lower ? other : one;
+  }
+
+  /// What is left of the gradient shows up as an eigenvalue of the free azimuth of a buckled column; it is no
+  /// instability.
+  double neutral() const {
+    return std::max(kUnstable * energy.bendingScale(), 10.0 * largestColumn(gradient.rotations));
+  }
+
+  /// Moves along the unstable direction to about the least energy: doubling until it rises, then through three points.
+  void leaveAlong(const ChainEigenpair& pair, double value) {
+    step.rotations = pair.response.rotations;
+    step.strains = energy.strainsOf(pair.response);
+    const double unit = 1.0 / largestColumn(step.rotations);
+    double angle = 0.02;
+    double before = value, now = tryStep(angle * unit), beyond = tryStep(2.0 * angle * unit);
+    while (beyond < now && angle < 0.75) {
+      angle *= 2.0;
+      before = now;
+      now = beyond;
+      beyond = tryStep(2.0 * angle * unit);
+    }
+    // Vertex of the parabola through angle / 2, angle and 2 angle (0, angle and 2 angle if the first trial was beyond
+    // it).
+    const double width = angle > 0.02 ? 0.5 * angle : angle;
+    const double left = (now - before) / width;
+    const double right = (beyond - now) / angle;
+    const double curvature = (right - left) / (0.5 * (width + angle));
+    if (curvature > 0.0) angle = std::clamp(angle - 0.5 * width - left / curvature, 0.25 * angle, 2.0 * angle);
+    tryStep(angle * unit);
+    takeTrial();
+  }
+
+  void writeRod(rod::Rod& rod) const {
+    for (std::size_t e = 0; e < rod.size(); ++e) {
+      rod.elements[e].frame = here.frames[e];
+      rod.elements[e].strain = here.strains.col(static_cast<Eigen::Index>(e));
+      rod.bends[e].curvature = energy.curvature(e);
+    }
+    rod.rebuildPositions();
+  }
+};
+
+SupportedEquilibrium::SupportedEquilibrium(const RelaxationSettings& settings)
+    : settings_(settings), workspace_(std::make_unique<Workspace>()) {}
+SupportedEquilibrium::~SupportedEquilibrium() = default;
+SupportedEquilibrium::SupportedEquilibrium(SupportedEquilibrium&&) noexcept = default;
+SupportedEquilibrium& SupportedEquilibrium::operator=(SupportedEquilibrium&&) noexcept = default;
+
+const Reactions& SupportedEquilibrium::reactions() const { return workspace_->reactions; }
+
+RelaxationReport SupportedEquilibrium::relax(rod::Rod& rod, const Loads& loads) {
+  Workspace& w = *workspace_;
+  RelaxationReport report;
+  const auto stop = [&report](RelaxationReason reason) {
+    report.reason = reason;
+    return report;
+  };
+  if (!isFinite(rod, loads)) return stop(RelaxationReason::not_finite);
+
+  w.energy.assign(rod, loads);
+  w.readConfiguration(rod);
+  if (loads.surroundings.held_apex && loads.surroundings.held_apex->frame) {
+    w.turnTowards(*loads.surroundings.held_apex->frame);
+  }
+
+  // A couple does work that depends on the path, so that no Hessian decides about stability: the unstable direction is
+  // tried once, and where the rod ends then is taken.
+  const bool is_conservative = loads.tip_couple.isZero(0.0);
+  // Forces of all elements beyond add up in each, so round-off grows with their number.
+  const double round_off = 10.0 * static_cast<double>(rod.size()) * std::numeric_limits<double>::epsilon();
+  const double support_tolerance = kSupportTolerance * rod.restLength();
+  SurroundingsPotential& surroundings = w.energy.surroundings();
+  w.energy.evaluate(w.here);
+  const double largest_penalty = kLargestPenalty * surroundings.penalty();
+  const double soft_penalty = kSoft * surroundings.penalty();
+  if (surroundings.violation() > kFar * rod.restLength()) surroundings.setPenalty(soft_penalty);
+  double violation = std::numeric_limits<double>::infinity();  // left by the round before
+  double round_tolerance = surroundings.isRigid() ? kFirstRound : 0.0;
+
+  double shift = 0.0;
+  while (true) {
+    const double value = w.energy.evaluate(w.here);
+    w.energy.differentiate(w.gradient);
+    report.residual = w.energy.residual(w.gradient);
+    report.largest_bend = w.energy.largestBend();
+    if (!std::isfinite(report.residual) || !std::isfinite(value)) return stop(RelaxationReason::not_finite);
+
+    const double tolerance = std::max({settings_.tolerance, round_off, w.energy.residualRoundOff()});
+    w.energy.differentiateTwice(1.0, w.hessian);
+    if (report.residual < std::max(tolerance, round_tolerance)) {
+      if (!w.factor.factor(w.hessian, w.neutral()) && (is_conservative || report.branch_switches == 0)) {
+        // An instability that rigid surroundings forbid is none; they only need to be stiffer.
+        w.energy.differentiateTwice(kTested, w.hessian);
+        if (w.factor.factor(w.hessian, w.neutral())) {
+          surroundings.setPenalty(kPenaltyGrowth * surroundings.penalty());
+        } else {
+          if (report.branch_switches == settings_.max_branch_switches) return stop(RelaxationReason::unstable);
+          ++report.branch_switches;
+          w.leaveAlong(w.lowestEigenpair(), value);
+          surroundings.setPenalty(std::min(surroundings.penalty(), soft_penalty));
+        }
+        continue;
+      }
+      const double remaining = surroundings.violation();
+      if (report.residual < tolerance && remaining <= support_tolerance) break;
+
+      surroundings.updateMultipliers();
+      const bool stalls = remaining > std::max(support_tolerance, kProgress * violation);
+      if (stalls) surroundings.setPenalty(kPenaltyGrowth * surroundings.penalty());
+      if (surroundings.penalty() > largest_penalty) return stop(RelaxationReason::out_of_reach);
+      violation = remaining;
+      round_tolerance *= 0.01;
+      continue;
+    }
+
+    if (report.iterations == settings_.max_iterations) return stop(RelaxationReason::too_many_iterations);
+    ++report.iterations;
+    w.newtonDirection(report.residual, shift);
+    if (!w.lineSearch(value, settings_.max_rotation)) return stop(RelaxationReason::line_search_failed);
+  }
+  if (report.largest_bend > settings_.max_bend_angle) return stop(RelaxationReason::unresolved_bend);
+
+  w.energy.differentiateTwice(kTested, w.hessian);
+  report.lowest_eigenvalue = w.lowestEigenpair().value;
+  w.reactions = w.energy.reactions();
+  w.writeRod(rod);
+  return report;
+}
+
+}  // namespace sensory_growth::mechanics
