@@ -247,8 +247,10 @@ RelaxationReport SupportedEquilibrium::relax(rod::Rod& rod, const Loads& loads) 
         } else {
           if (report.branch_switches == settings_.max_branch_switches) return stop(RelaxationReason::unstable);
           ++report.branch_switches;
-          w.leaveAlong(w.lowestEigenpair(), value);
-          surroundings.setPenalty(std::min(surroundings.penalty(), soft_penalty));
+          const ChainEigenpair lowest = w.lowestEigenpair();
+          surroundings.updateMultipliers();
+          w.leaveAlong(lowest, w.energy.evaluate(w.here));
+          round_tolerance *= 0.01;
         }
         continue;
       }
