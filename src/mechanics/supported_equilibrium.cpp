@@ -143,10 +143,30 @@ struct SupportedEquilibrium::Workspace {
     return field;
   }
 
-  /// Lowest eigenpair, searched from two leanings at right angles so that no symmetry can hide it.
+  /// How far the vertices of a buckling rod go towards a side, summed.
+  double bulge(const ChainResponse& mode, const Vector3& side) const {
+    Vector3 displacement = Vector3::Zero();
+    double sum = 0.0;
+    for (std::size_t e = 0; e < hessian.links.size(); ++e) {
+      displacement += hessian.links[e].lever * mode.rotations.col(static_cast<Eigen::Index>(e));
+      sum += displacement.dot(side);
+    }
+    return sum;
+  }
+
+  /// Lowest eigenpair, searched from two leanings at right angles so that no symmetry can hide it. The mode bulges to
+  /// the side it was searched from.
   ChainEigenpair lowestEigenpair() const {
-    ChainEigenpair one = mechanics::lowestEigenpair(hessian, lean(first_side), kEigenvalueTolerance);
-    ChainEigenpair other = mechanics::lowestEigenpair(hessian, lean(second_side), kEigenvalueTolerance);
+    const auto search = [this](const Vector3& side) {
+      ChainEigenpair pair = mechanics::lowestEigenpair(hessian, lean(side), kEigenvalueTolerance);
+      if (bulge(pair.response, side) < 0.0) {
+        pair.response.rotations *= -1.0;
+        pair.response.forces *= -1.0;
+      }
+      return pair;
+    };
+    const ChainEigenpair one = search(first_side);
+    const ChainEigenpair other = search(second_side);
     const bool clearly_lower = other.value < one.value - 10.0 * kEigenvalueTolerance * std::abs(one.value);
     return clearly_lower ? other : one;
   }
