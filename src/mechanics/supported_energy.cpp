@@ -24,7 +24,7 @@ Eigen::Index column(std::size_t e) { return static_cast<Eigen::Index>(e); }
 
 void SupportedEnergy::assign(const rod::Rod& rod, const Loads& loads) {
   const std::size_t n = rod.size();
-  base_ = rod.base;
+  base_frame_ = rod.base.frame;
   support_ = rod.base_support;
   tip_couple_ = loads.tip_couple;
   frame_is_held_ = loads.surroundings.held_apex && loads.surroundings.held_apex->frame;
@@ -86,14 +86,14 @@ double SupportedEnergy::evaluate(const Configuration& configuration) {
   };
 
   for (std::size_t j = 0; j < angle_.size(); ++j) {
-    const rod::Quaternion& below = j > 0 ? frames_[j - 1] : base_.frame;
+    const rod::Quaternion& below = j > 0 ? frames_[j - 1] : base_frame_;
     const rod::Quaternion& above = j < size() ? frames_[j] : held_frame_;
     angle_[j] = rod::log(below.conjugate() * above);
     add(0.5 * voronoi_[j] * bendMoment(j).dot(curvature(j) - rest_curvature_[j]));
   }
 
   positions_.resize(3, column(size()) + 1);
-  positions_.col(0) = base_.position;
+  positions_.col(0).setZero();
   for (std::size_t e = 0; e < size(); ++e) {
     const Vector3 strain = strains_.col(column(e));
     const Vector3 stretch = strain - rest_strain_[e];
@@ -102,7 +102,7 @@ double SupportedEnergy::evaluate(const Configuration& configuration) {
         positions_.col(column(e)) + rest_length_[e] * (frames_[e] * (Vector3::UnitZ() + strain));
   }
   for (Eigen::Index v = 1; v < positions_.cols(); ++v) {
-    add(-vertex_force_.col(v).dot(positions_.col(v) - base_.position));
+    add(-vertex_force_.col(v).dot(positions_.col(v)));
   }
 
   add(surroundings_.evaluate(positions_));

@@ -10,6 +10,9 @@ using rod::Vector3;
 
 void SurroundingsPotential::assign(const rod::Rod& rod, const Surroundings& surroundings, double penalty) {
   surroundings_ = surroundings;
+  for (Spring& spring : surroundings_.springs) spring.anchor -= rod.base.position;
+  for (Wall& wall : surroundings_.walls) wall.point -= rod.base.position;
+  if (surroundings_.held_apex) surroundings_.held_apex->position -= rod.base.position;
   penalty_ = penalty;
   is_rigid_ = surroundings.held_apex.has_value();
   for (const Wall& wall : surroundings.walls) is_rigid_ = is_rigid_ || std::isinf(wall.stiffness);

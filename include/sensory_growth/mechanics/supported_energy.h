@@ -79,7 +79,7 @@ class SupportedEnergy {
   double forceScale() const;
   rod::Vector3 bendMoment(std::size_t j) const;
 
-  rod::Pose base_;
+  rod::Quaternion base_frame_;
   rod::BaseSupport support_ = rod::BaseSupport::clamped;
   bool frame_is_held_ = false;
   rod::Quaternion held_frame_;
@@ -99,7 +99,7 @@ class SupportedEnergy {
 
   // At the last configuration.
   std::vector<rod::Quaternion> frames_;
-  Field strains_, positions_;
+  Field strains_, positions_;  ///< positions relative to the base
   std::vector<rod::Vector3> angle_;
   std::vector<rod::Vector3> material_force_;  ///< p, of elements [N]
   double magnitude_ = 0.0;

@@ -22,7 +22,8 @@ class SurroundingsPotential {
   /// True if there are rigid walls or a held apex.
   bool isRigid() const { return is_rigid_; }
 
-  /// Energy [J] at the positions (n + 1 columns). Keeps them for the calls below.
+  /// Energy [J] at the positions relative to the base (n + 1 columns), which keeps their digits. Keeps them for the
+  /// calls below.
   double evaluate(const Field& positions);
 
   /// Force on every vertex [N], and the sum of the magnitudes of its parts.
