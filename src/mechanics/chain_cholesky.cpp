@@ -1,4 +1,4 @@
-#include "sensory_growth/mechanics/chain_cholesky.h"
+#include "chain_cholesky.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +12,12 @@ double ChainHessian::largestDiagonal() const {
   double largest = 0.0;
   for (const ChainLink& link : links) largest = std::max(largest, link.rotation.diagonal().cwiseAbs().maxCoeff());
   return largest;
+}
+
+bool ChainHessian::isFinite() const {
+  return std::all_of(links.begin(), links.end(), [](const ChainLink& link) {
+    return link.rotation.allFinite() && link.lever.allFinite() && link.stiffness.allFinite();
+  });
 }
 
 bool ChainCholesky::factor(const ChainHessian& hessian, double shift) {

@@ -1,4 +1,4 @@
-#include "sensory_growth/mechanics/supported_energy.h"
+#include "supported_energy.h"
 
 #include <algorithm>
 #include <cmath>

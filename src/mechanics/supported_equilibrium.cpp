@@ -5,8 +5,8 @@
 #include <limits>
 #include <vector>
 
-#include "sensory_growth/mechanics/chain_cholesky.h"
-#include "sensory_growth/mechanics/supported_energy.h"
+#include "chain_cholesky.h"
+#include "supported_energy.h"
 
 namespace sensory_growth::mechanics {
 namespace {
@@ -18,13 +18,23 @@ constexpr double kUnstable = 1e-9;  // of B / L: eigenvalues below minus this ar
 constexpr double kEigenvalueTolerance = 1e-6;
 constexpr double kUnresolvable = 3.0;  // rad: near pi the rotation vector of a bend jumps
 
-constexpr double kFar = 1e-2;         // of the length: beyond this rigid surroundings start out soft
-constexpr double kSoft = 1e-2;        // of the penalty, for that
-constexpr double kFirstRound = 1e-3;  // tolerance of the first round; each has a hundredth of the one before
-constexpr double kProgress = 0.1;     // of the violation is left by a round, or the penalty grows
+constexpr double kFar = 1e-2;             // of the length: beyond this rigid surroundings start out soft
+constexpr double kSoft = 1e-2;            // of the penalty, for that
+constexpr double kFirstTolerance = 1e-3;  // on the residual, in the first round
+constexpr double kTighter = 1e-2;         // of the tolerance is left for the next round
+constexpr double kProgress = 0.1;         // of the violation is left by a round, or the penalty grows
 constexpr double kPenaltyGrowth = 10.0;
-constexpr double kLargestPenalty = 1e8;  // over the first: the rod cannot reach what holds it
-constexpr double kTested = 1e4;          // emphasis on the penalty when an instability is in doubt
+constexpr double kLargestPenalty = 1e8;   // over the first: the rod cannot reach what holds it
+constexpr double kTestedStiffness = 1e4;  // times the penalty: nearly rigid, where stability is judged
+constexpr double kLargestShift = 1e6;     // of the diagonal: far beyond what makes any Hessian positive
+
+/// Rigid surroundings are met in rounds; in each their forces stay as they are but for the penalty.
+struct Round {
+  double tolerance = 0.0;                                      ///< on the residual [-]
+  double violation = std::numeric_limits<double>::infinity();  ///< that the round before left [m]
+  double support_tolerance = 0.0;                              ///< on the violation [m]
+  double largest_penalty = 0.0;                                ///< [N/m]
+};
 
 bool isFinite(const rod::Rod& rod, const Loads& loads) {
   bool finite = loads.gravity.allFinite() && loads.tip_force.allFinite() && loads.line_force.allFinite() &&
@@ -59,6 +69,7 @@ struct SupportedEquilibrium::Workspace {
   ChainCholesky factor;
   Configuration here, trial;
   Reactions reactions;
+  Round round;
   Vector3 first_side, second_side;  ///< directions of the world across the base: where columns buckle
 
   /// The rod as it stands. Inextensible elements have their rest strain.
@@ -107,15 +118,19 @@ struct SupportedEquilibrium::Workspace {
   /// Newton direction; an indefinite Hessian is shifted until it is positive. The shift is remembered between
   /// iterations. The first one vanishes with the residual: at a buckled equilibrium the free azimuth makes the Hessian
   /// singular, and a shift that stayed would stall the last iterations. There is always a tiny one, far below the
-  /// stiffness of the rod as a whole, because a hinged rod may turn about itself.
-  void newtonDirection(double residual, double& shift) {
+  /// stiffness of the rod as a whole, because a hinged rod may turn about itself. False where no shift helps.
+  bool newtonDirection(double residual, double& shift) {
     const double scale = hessian.largestDiagonal();
     const double first = std::max(1e-6 * std::min(1.0, 1e5 * residual), 1e-14);
     const double least = 1e-9 * energy.bendingScale() / static_cast<double>(energy.size());
     double tau = shift;
-    while (!factor.factor(hessian, tau * scale + least)) tau = tau > 0.0 ? 4.0 * tau : first;
+    while (!factor.factor(hessian, tau * scale + least)) {
+      tau = tau > 0.0 ? 4.0 * tau : first;
+      if (tau > kLargestShift) return false;
+    }
     shift = tau > 4.0 * first ? tau / 4.0 : 0.0;
     energy.newtonStep(hessian, factor, gradient, step);
+    return true;
   }
 
   /// Armijo backtracking on the true energy. True if a step was taken.
@@ -201,6 +216,50 @@ struct SupportedEquilibrium::Workspace {
     takeTrial();
   }
 
+  /// Rigid surroundings that are far off start out soft.
+  void startFirstRound(double rest_length) {
+    energy.evaluate(here);
+    SurroundingsPotential& surroundings = energy.surroundings();
+    round = Round();
+    round.tolerance = surroundings.isRigid() ? kFirstTolerance : 0.0;
+    round.support_tolerance = kSupportTolerance * rest_length;
+    round.largest_penalty = kLargestPenalty * surroundings.penalty();
+    if (surroundings.violation() > kFar * rest_length) surroundings.setPenalty(kSoft * surroundings.penalty());
+  }
+
+  bool meetsSupports() { return energy.surroundings().violation() <= round.support_tolerance; }
+
+  /// Corrects the forces of rigid surroundings. False if the rod cannot reach them.
+  bool startNextRound() {
+    SurroundingsPotential& surroundings = energy.surroundings();
+    const double violation = surroundings.violation();
+    surroundings.updateMultipliers();
+    const bool stalls = violation > std::max(round.support_tolerance, kProgress * round.violation);
+    if (stalls) surroundings.setPenalty(kPenaltyGrowth * surroundings.penalty());
+    round.violation = violation;
+    round.tolerance *= kTighter;
+    return surroundings.penalty() <= round.largest_penalty;
+  }
+
+  bool isStable() { return factor.factor(hessian, neutral()); }
+
+  /// True if it is only for the softness of rigid surroundings that the equilibrium is unstable; they are then made
+  /// stiffer.
+  bool isStableIfStiffer() {
+    energy.differentiateTwice(kTestedStiffness, hessian);
+    if (!isStable()) return false;
+    energy.surroundings().setPenalty(kPenaltyGrowth * energy.surroundings().penalty());
+    return true;
+  }
+
+  /// Needs a call of isStableIfStiffer(), so that the direction respects rigid surroundings.
+  void leaveUnstable() {
+    const ChainEigenpair lowest = lowestEigenpair();
+    energy.surroundings().updateMultipliers();
+    leaveAlong(lowest, energy.evaluate(here));
+    round.tolerance *= kTighter;
+  }
+
   void writeRod(rod::Rod& rod) const {
     for (std::size_t e = 0; e < rod.size(); ++e) {
       rod.elements[e].frame = here.frames[e];
@@ -234,20 +293,13 @@ RelaxationReport SupportedEquilibrium::relax(rod::Rod& rod, const Loads& loads) 
     w.turnTowards(*loads.surroundings.held_apex->frame);
   }
 
+  w.startFirstRound(rod.restLength());
+
   // A couple does work that depends on the path, so that no Hessian decides about stability: the unstable direction is
   // tried once, and where the rod ends then is taken.
   const bool is_conservative = loads.tip_couple.isZero(0.0);
   // Forces of all elements beyond add up in each, so round-off grows with their number.
   const double round_off = 10.0 * static_cast<double>(rod.size()) * std::numeric_limits<double>::epsilon();
-  const double support_tolerance = kSupportTolerance * rod.restLength();
-  SurroundingsPotential& surroundings = w.energy.surroundings();
-  w.energy.evaluate(w.here);
-  const double largest_penalty = kLargestPenalty * surroundings.penalty();
-  const double soft_penalty = kSoft * surroundings.penalty();
-  if (surroundings.violation() > kFar * rod.restLength()) surroundings.setPenalty(soft_penalty);
-  double violation = std::numeric_limits<double>::infinity();  // left by the round before
-  double round_tolerance = surroundings.isRigid() ? kFirstRound : 0.0;
-
   double shift = 0.0;
   while (true) {
     const double value = w.energy.evaluate(w.here);
@@ -258,42 +310,30 @@ RelaxationReport SupportedEquilibrium::relax(rod::Rod& rod, const Loads& loads) 
 
     const double tolerance = std::max({settings_.tolerance, round_off, w.energy.residualRoundOff()});
     w.energy.differentiateTwice(1.0, w.hessian);
-    if (report.residual < std::max(tolerance, round_tolerance)) {
-      if (!w.factor.factor(w.hessian, w.neutral()) && (is_conservative || report.branch_switches == 0)) {
-        // An instability that rigid surroundings forbid is none; they only need to be stiffer.
-        w.energy.differentiateTwice(kTested, w.hessian);
-        if (w.factor.factor(w.hessian, w.neutral())) {
-          surroundings.setPenalty(kPenaltyGrowth * surroundings.penalty());
-        } else {
-          if (report.branch_switches == settings_.max_branch_switches) return stop(RelaxationReason::unstable);
-          ++report.branch_switches;
-          const ChainEigenpair lowest = w.lowestEigenpair();
-          surroundings.updateMultipliers();
-          w.leaveAlong(lowest, w.energy.evaluate(w.here));
-          round_tolerance *= 0.01;
-        }
+    if (!w.hessian.isFinite()) return stop(RelaxationReason::not_finite);
+
+    if (report.residual < std::max(tolerance, w.round.tolerance)) {
+      if ((is_conservative || report.branch_switches == 0) && !w.isStable()) {
+        if (w.isStableIfStiffer()) continue;
+        if (report.branch_switches == settings_.max_branch_switches) return stop(RelaxationReason::unstable);
+        ++report.branch_switches;
+        w.leaveUnstable();
         continue;
       }
-      const double remaining = surroundings.violation();
-      if (report.residual < tolerance && remaining <= support_tolerance) break;
-
-      surroundings.updateMultipliers();
-      const bool stalls = remaining > std::max(support_tolerance, kProgress * violation);
-      if (stalls) surroundings.setPenalty(kPenaltyGrowth * surroundings.penalty());
-      if (surroundings.penalty() > largest_penalty) return stop(RelaxationReason::out_of_reach);
-      violation = remaining;
-      round_tolerance *= 0.01;
+      if (report.residual < tolerance && w.meetsSupports()) break;
+      if (!w.startNextRound()) return stop(RelaxationReason::out_of_reach);
       continue;
     }
 
     if (report.iterations == settings_.max_iterations) return stop(RelaxationReason::too_many_iterations);
     ++report.iterations;
-    w.newtonDirection(report.residual, shift);
-    if (!w.lineSearch(value, settings_.max_rotation)) return stop(RelaxationReason::line_search_failed);
+    const bool has_direction = w.newtonDirection(report.residual, shift);
+    if (!has_direction || !w.lineSearch(value, settings_.max_rotation))
+      return stop(RelaxationReason::line_search_failed);
   }
   if (report.largest_bend > settings_.max_bend_angle) return stop(RelaxationReason::unresolved_bend);
 
-  w.energy.differentiateTwice(kTested, w.hessian);
+  w.energy.differentiateTwice(kTestedStiffness, w.hessian);
   report.lowest_eigenvalue = w.lowestEigenpair().value;
   w.reactions = w.energy.reactions();
   w.writeRod(rod);

@@ -1,4 +1,4 @@
-#include "sensory_growth/mechanics/surroundings_potential.h"
+#include "surroundings_potential.h"
 
 #include <algorithm>
 #include <cmath>

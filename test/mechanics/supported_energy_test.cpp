@@ -1,6 +1,6 @@
 // Gradient and Newton step of a rod in its surroundings against differences of an energy summed up here (model.md 17).
 
-#include "sensory_growth/mechanics/supported_energy.h"
+#include "supported_energy.h"
 
 #include <cmath>
 #include <random>

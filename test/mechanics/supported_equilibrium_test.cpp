@@ -412,6 +412,11 @@ TEST(SupportedEquilibrium, RefusesNumbersThatAreNotFinite) {
   loads = {};
   loads.tip_couple.x() = nan;
   EXPECT_EQ(reason(loads), RelaxationReason::not_finite);
+  loads = withWall({}, floorAt(-1.0));
+  for (const double huge : {1e160, 1e308}) {
+    loads.tip_force = {0.0, 0.0, -huge};
+    EXPECT_EQ(reason(loads), RelaxationReason::not_finite);
+  }
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "sensory_growth/mechanics/chain_cholesky.h"
+#include "chain_cholesky.h"
 #include "sensory_growth/mechanics/surroundings.h"
 #include "sensory_growth/rod/rod.h"
 

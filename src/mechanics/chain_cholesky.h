@@ -33,6 +33,7 @@ struct ChainHessian {
   bool first_fixed = false;  ///< w_0 = 0
 
   double largestDiagonal() const;  ///< of the rotation blocks [N m]
+  bool isFinite() const;
 };
 
 /// What solving for a load gives.

@@ -6,10 +6,10 @@
 #include <cstddef>
 #include <vector>
 
-#include "sensory_growth/mechanics/chain_cholesky.h"
+#include "chain_cholesky.h"
 #include "sensory_growth/mechanics/loads.h"
-#include "sensory_growth/mechanics/surroundings_potential.h"
 #include "sensory_growth/rod/rod.h"
+#include "surroundings_potential.h"
 
 namespace sensory_growth::mechanics {
 
