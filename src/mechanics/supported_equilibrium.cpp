@@ -16,7 +16,8 @@ using rod::Vector3;
 constexpr double kArmijo = 1e-4;
 constexpr double kUnstable = 1e-9;  // of B / L: eigenvalues below minus this are unstable, model.md 12.4
 constexpr double kEigenvalueTolerance = 1e-6;
-constexpr double kUnresolvable = 3.0;  // rad: near pi the rotation vector of a bend jumps
+constexpr double kReportTolerance = 1e-3;  // on the lowest eigenvalue of a rod whose factor has shown it to be stable
+constexpr double kUnresolvable = 3.0;      // rad: near pi the rotation vector of a bend jumps
 
 constexpr double kFar = 1e-2;             // of the length: beyond this rigid surroundings start out soft
 constexpr double kSoft = 1e-2;            // of the penalty, for that
@@ -171,9 +172,9 @@ struct SupportedEquilibrium::Workspace {
 
   /// Lowest eigenpair, searched from two leanings at right angles so that no symmetry can hide it. The mode bulges to
   /// the side it was searched from.
-  ChainEigenpair lowestEigenpair() const {
-    const auto search = [this](const Vector3& side) {
-      ChainEigenpair pair = mechanics::lowestEigenpair(hessian, lean(side), kEigenvalueTolerance);
+  ChainEigenpair lowestEigenpair(double tolerance) const {
+    const auto search = [&](const Vector3& side) {
+      ChainEigenpair pair = mechanics::lowestEigenpair(hessian, lean(side), tolerance);
       if (bulge(pair.response, side) < 0.0) {
         pair.response.rotations *= -1.0;
         pair.response.forces *= -1.0;
@@ -182,7 +183,7 @@ struct SupportedEquilibrium::Workspace {
     };
     const ChainEigenpair one = search(first_side);
     const ChainEigenpair other = search(second_side);
-    const bool clearly_lower = other.value < one.value - 10.0 * kEigenvalueTolerance * std::abs(one.value);
+    const bool clearly_lower = other.value < one.value - 10.0 * tolerance * std::abs(one.value);
     return clearly_lower ? other : one;
   }
 
@@ -254,7 +255,7 @@ struct SupportedEquilibrium::Workspace {
 
   /// Needs a call of isStableIfStiffer(), so that the direction respects rigid surroundings.
   void leaveUnstable() {
-    const ChainEigenpair lowest = lowestEigenpair();
+    const ChainEigenpair lowest = lowestEigenpair(kEigenvalueTolerance);
     energy.surroundings().updateMultipliers();
     leaveAlong(lowest, energy.evaluate(here));
     round.tolerance *= kTighter;
@@ -334,7 +335,7 @@ RelaxationReport SupportedEquilibrium::relax(rod::Rod& rod, const Loads& loads) 
   if (report.largest_bend > settings_.max_bend_angle) return stop(RelaxationReason::unresolved_bend);
 
   w.energy.differentiateTwice(kTestedStiffness, w.hessian);
-  report.lowest_eigenvalue = w.lowestEigenpair().value;
+  report.lowest_eigenvalue = w.lowestEigenpair(kReportTolerance).value;
   w.reactions = w.energy.reactions();
   w.writeRod(rod);
   return report;
