@@ -16,6 +16,7 @@ using rod::Vector3;
 constexpr double kArmijo = 1e-4;
 constexpr double kUnstable = 1e-9;  // of B / L: eigenvalues below minus this are unstable, model.md 12.4
 constexpr double kEigenvalueTolerance = 1e-6;
+constexpr double kTwist = 0.1;  // of what an eigenvector search starts from, or it would not find a mode of twist
 constexpr double kReportTolerance = 1e-3;  // on the lowest eigenvalue of a rod whose factor has shown it to be stable
 constexpr double kUnresolvable = 3.0;      // rad: near pi the rotation vector of a bend jumps
 
@@ -154,7 +155,8 @@ struct SupportedEquilibrium::Workspace {
     const Vector3 axis = first_side.cross(second_side).cross(towards);
     Field field(3, here.strains.cols());
     for (Eigen::Index e = 0; e < field.cols(); ++e) {
-      field.col(e) = (static_cast<double>(e) + 0.5) * (here.frames[static_cast<std::size_t>(e)].conjugate() * axis);
+      field.col(e) = (static_cast<double>(e) + 0.5) *
+                     (here.frames[static_cast<std::size_t>(e)].conjugate() * axis + kTwist * Vector3::UnitZ());
     }
     return field;
   }
