@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "rod_motion.h"
 #include "sensory_growth/mechanics/static_equilibrium.h"
 
 namespace sensory_growth::mechanics {
@@ -71,23 +72,27 @@ double waveTime(const rod::Rod& rod) {
   return shortest;
 }
 
+DynamicRelaxation::DynamicRelaxation(const DynamicsSettings& settings)
+    : settings_(settings), motion_(std::make_unique<RodMotion>()) {}
+DynamicRelaxation::~DynamicRelaxation() = default;
+DynamicRelaxation::DynamicRelaxation(DynamicRelaxation&&) noexcept = default;
+DynamicRelaxation& DynamicRelaxation::operator=(DynamicRelaxation&&) noexcept = default;
+
 RelaxationReport DynamicRelaxation::relax(rod::Rod& rod, const Loads& loads) {
   const Timing times(rod, settings_);
-  motion_.assign(rod, loads, settings_.dilatation);
-  motion_.stop();
+  motion_->assign(rod, loads, settings_.dilatation);
+  motion_->stop();
   RelaxationReport report = reportAtStart(times);
   if (!report.ok()) return report;
   settle(times, report);
   if (!report.ok()) return report;
-  report.largest_bend = motion_.largestBend();
+  report.largest_bend = motion_->largestBend();
   if (report.largest_bend > settings_.max_bend_angle) return stopped(report, RelaxationReason::unresolved_bend);
 
-  motion_.stop();
+  motion_->stop();
   rod::Rod relaxed = rod;
-  motion_.write(relaxed);
-  // The static Hessian does not know a frozen first element nor the surroundings yet.
-  const bool has_hessian = rod.base_support != rod::BaseSupport::frozen_first_element && loads.surroundings.empty();
-  if (settings_.stopping == StoppingRule::residual && has_hessian && !isStable(relaxed, loads, report)) {
+  motion_->write(relaxed);
+  if (settings_.stopping == StoppingRule::residual && !isStable(relaxed, loads, report)) {
     return stopped(report, RelaxationReason::unstable);
   }
   rod = std::move(relaxed);
@@ -96,7 +101,7 @@ RelaxationReport DynamicRelaxation::relax(rod::Rod& rod, const Loads& loads) {
 
 RelaxationReport DynamicRelaxation::advance(rod::Rod& rod, const Loads& loads, double duration) {
   const Timing times(rod, settings_);
-  motion_.assign(rod, loads, settings_.dilatation);
+  motion_->assign(rod, loads, settings_.dilatation);
   RelaxationReport report = reportAtStart(times);
   if (!report.ok()) return report;
   if (!(duration <= settings_.max_periods * times.first_period)) {
@@ -106,20 +111,20 @@ RelaxationReport DynamicRelaxation::advance(rod::Rod& rod, const Loads& loads, d
   const int steps = static_cast<int>(std::ceil(duration / times.step * (1.0 - 1e-12)));
   if (steps > 0) {
     const double dt = duration / steps;
-    motion_.setTimeStep(dt, times.damping);
-    motion_.drift(0.5 * dt);
+    motion_->setTimeStep(dt, times.damping);
+    motion_->drift(0.5 * dt);
     for (int i = 1; i <= steps; ++i) {
-      motion_.evaluate();
-      motion_.kickAndDrift(i < steps ? dt : 0.5 * dt);
+      motion_->evaluate();
+      motion_->kickAndDrift(i < steps ? dt : 0.5 * dt);
     }
   }
   report.iterations = steps;
   report.time = duration;
   measure(report);
   if (!report.ok()) return report;
-  report.largest_bend = motion_.largestBend();
+  report.largest_bend = motion_->largestBend();
   if (report.largest_bend > settings_.max_bend_angle) return stopped(report, RelaxationReason::unresolved_bend);
-  motion_.write(rod);
+  motion_->write(rod);
   return report;
 }
 
@@ -129,48 +134,48 @@ RelaxationReport DynamicRelaxation::reportAtStart(const Timing& times) {
   if (times.step == 0.0) return stopped(report, RelaxationReason::no_time_step);
   const bool has_times = isPositive(times.step) && isPositive(times.first_period) && std::isfinite(times.damping);
   if (!has_times) return stopped(report, RelaxationReason::not_finite);
-  motion_.evaluate();
+  motion_->evaluate();
   measure(report);
   return report;
 }
 
 /// Residual and kinetic energy as of the last evaluation of the forces.
 void DynamicRelaxation::measure(RelaxationReport& report) const {
-  report.residual = motion_.residual();
-  report.kinetic_energy = motion_.kineticEnergy();
+  report.residual = motion_->residual();
+  report.kinetic_energy = motion_->kineticEnergy();
   const bool finite = std::isfinite(report.residual) && std::isfinite(report.kinetic_energy);
   if (!finite) report.reason = RelaxationReason::not_finite;
 }
 
 /// Steps until the rod rests. The report says if it did.
 void DynamicRelaxation::settle(const Timing& times, RelaxationReport& report) {
-  const double tolerance = std::max(settings_.tolerance, motion_.restingResidual());
+  const double tolerance = std::max(settings_.tolerance, motion_->restingResidual());
   if (report.residual < tolerance) return;
   const double dt = times.step;
-  const double carried = motion_.carriedShare();
+  const double carried = motion_->carriedShare();
   const double ramp = carried < kCarried ? settings_.ramp_periods * times.first_period : 0.0;
   const int check_interval = std::max(1, static_cast<int>(times.first_period / (kChecksPerPeriod * dt)));
   double quiet_since = 0.0;
   int quiet_steps = 0;
 
-  motion_.setTimeStep(dt, times.damping);
-  motion_.drift(0.5 * dt);
+  motion_->setTimeStep(dt, times.damping);
+  motion_->drift(0.5 * dt);
   while (true) {
     report.time = (report.iterations + 0.5) * dt;
     const bool ramping = ramp > 0.0 && report.time < ramp + dt;
-    if (ramping) motion_.setShare(carried + (1.0 - carried) * smoothStep(report.time / ramp));
-    motion_.evaluate();
+    if (ramping) motion_->setShare(carried + (1.0 - carried) * smoothStep(report.time / ramp));
+    motion_->evaluate();
     const bool is_due = report.iterations % check_interval == 0;
     if (is_due) {
       measure(report);
       if (!report.ok()) return;
     }
     if (settings_.stopping == StoppingRule::rotational_energy) {
-      quiet_steps = motion_.rotationalEnergy() < settings_.rest_energy ? quiet_steps + 1 : 0;
+      quiet_steps = motion_->rotationalEnergy() < settings_.rest_energy ? quiet_steps + 1 : 0;
       if (quiet_steps == settings_.rest_steps) return measure(report);
     } else if (is_due) {
       const bool is_quiet =
-          !ramping && report.residual < tolerance && report.kinetic_energy < kRestingEnergy * motion_.energyScale();
+          !ramping && report.residual < tolerance && report.kinetic_energy < kRestingEnergy * motion_->energyScale();
       if (!is_quiet) quiet_since = report.time;
       if (report.time - quiet_since > kRestingPeriods * times.first_period) return;
     }
@@ -178,17 +183,17 @@ void DynamicRelaxation::settle(const Timing& times, RelaxationReport& report) {
       report.reason = RelaxationReason::too_many_iterations;
       return measure(report);
     }
-    motion_.kickAndDrift(dt);
+    motion_->kickAndDrift(dt);
     ++report.iterations;
   }
 }
 
 /// Whether the equilibrium found is stable. Motion follows what the imperfections of a rod give; one without any rests
-/// even where it could fall.
+/// even where it could fall. Under a body couple, which has no potential, a negative eigenvalue proves nothing.
 bool DynamicRelaxation::isStable(const rod::Rod& rod, const Loads& loads, RelaxationReport& report) const {
   report.lowest_eigenvalue = StaticEquilibrium().lowestEigenvalue(rod, loads);
-  const double neutral = std::max(kUnstable * motion_.bendingScale(), 10.0 * report.residual * motion_.coupleScale());
-  return report.lowest_eigenvalue >= -neutral;
+  const double neutral = std::max(kUnstable * motion_->bendingScale(), 10.0 * report.residual * motion_->coupleScale());
+  return report.lowest_eigenvalue >= -neutral || !loads.tip_couple.isZero(0.0);
 }
 
 }  // namespace sensory_growth::mechanics

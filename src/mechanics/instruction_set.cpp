@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "kernels/motion_kernels.h"
 #include "kernels/reduced_kernels.h"
 
 namespace sensory_growth::mechanics {
@@ -53,6 +54,19 @@ void useInstructionSet(InstructionSet set) {
 }
 
 namespace kernels {
+
+const MotionKernels& motionKernels() {
+  switch (instructionSet()) {
+#ifdef SENSORY_GROWTH_X86_64
+    case InstructionSet::avx512:
+      return motionKernelsAvx512();
+    case InstructionSet::avx2:
+      return motionKernelsAvx2();
+#endif
+    default:
+      return motionKernelsBaseline();
+  }
+}
 
 const ReducedKernels& reducedKernels() {
   switch (instructionSet()) {

@@ -1,41 +1,16 @@
-#include "sensory_growth/mechanics/rod_motion.h"
+#include "rod_motion.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "kernels/packets.h"
 #include "sensory_growth/mechanics/energy.h"
-#include "sensory_growth/mechanics/motion_formulas.h"
 
 namespace sensory_growth::mechanics {
 namespace {
 
-using formulas::Frame;
-using formulas::Triple;
 using rod::Vector3;
-
-template <typename Vectors>
-Triple<double> load(const Vectors& v, std::size_t i) {
-  return {v.x[i], v.y[i], v.z[i]};
-}
-
-template <typename Vectors>
-void store(Vectors& v, std::size_t i, const Triple<double>& a) {
-  v.x[i] = a.x;
-  v.y[i] = a.y;
-  v.z[i] = a.z;
-}
-
-template <typename Frames>
-Frame<double> loadFrame(const Frames& f, std::size_t i) {
-  return {f.w[i], load(f.v, i)};
-}
-
-template <typename Frames>
-void storeFrame(Frames& f, std::size_t i, const Frame<double>& q) {
-  f.w[i] = q.w;
-  store(f.v, i, q.v);
-}
 
 /// Springs, walls and a held apex: TO BE CONNECTED to mechanics/surroundings.
 Vector3 surroundingForce(const Surroundings&, std::size_t /*vertex*/, const Vector3& /*position*/) {
@@ -44,16 +19,8 @@ Vector3 surroundingForce(const Surroundings&, std::size_t /*vertex*/, const Vect
 
 }  // namespace
 
-void RodMotion::Vectors::resize(std::size_t n) {
-  x.resize(n);
-  y.resize(n);
-  z.resize(n);
-}
-
-void RodMotion::Vectors::setZero() {
-  std::fill(x.begin(), x.end(), 0.0);
-  std::fill(y.begin(), y.end(), 0.0);
-  std::fill(z.begin(), z.end(), 0.0);
+void RodMotion::Vectors::clear(std::size_t n) {
+  for (auto* column : {&x, &y, &z}) column->assign(n, 0.0);
 }
 
 void RodMotion::Vectors::set(std::size_t i, const Vector3& a) {
@@ -72,19 +39,8 @@ void RodMotion::assign(const rod::Rod& rod, const Loads& loads, bool dilatation)
   dilatation_ = dilatation;
   surroundings_ = loads.surroundings;
   share_ = 1.0;
-  for (auto* scalars : {&rest_length_, &inverse_length_, &inverse_voronoi_, &inverse_mass_, &inverse_inertia_}) {
-    scalars->resize(n);
-  }
-  for (Vectors* vectors : {&stretch_stiffness_, &rest_stretch_, &bend_stiffness_, &rest_curvature_, &dead_force_,
-                           &dead_couple_, &velocity_, &angular_velocity_, &couple_, &applied_force_}) {
-    vectors->resize(n);
-  }
-  for (Vectors* vectors : {&position_, &frame_.v, &force_, &lower_couple_}) vectors->resize(n + 1);
-  frame_.w.resize(n + 1);
-  current_length_.assign(n + 1, 0.0);
-  force_.setZero();
-  lower_couple_.setZero();
-  dead_couple_.setZero();
+  clear(n);
+  makeView(n);
 
   double stiffest = 0.0;
   double total_force = vertexForce(rod, loads, 0).norm();
@@ -123,9 +79,47 @@ void RodMotion::assign(const rod::Rod& rod, const Loads& loads, bool dilatation)
 
   const double weight_couple = total_force * rest_length_sum_;
   bending_scale_ = stiffest / rest_length_sum_;
-  couple_scale_ = std::max(weight_couple, bending_scale_);
+  couple_scale_ = std::max({weight_couple, bending_scale_, loads.tip_couple.norm()});
   energy_scale_ = weight_couple + bending_scale_;
   addUpForces();
+}
+
+/// Zeros everywhere, also in the padding: they carry no force and never move.
+void RodMotion::clear(std::size_t elements) {
+  const std::size_t n = (kernels::packetCount(elements) + 2) * kernels::kPacket;
+  for (auto* scalars : {&rest_length_, &inverse_length_, &inverse_voronoi_, &inverse_mass_, &inverse_inertia_,
+                        &current_length_, &frame_.w}) {
+    scalars->assign(n, 0.0);
+  }
+  for (Vectors* vectors :
+       {&stretch_stiffness_, &rest_stretch_, &bend_stiffness_, &rest_curvature_, &dead_force_, &dead_couple_,
+        &position_, &frame_.v, &velocity_, &angular_velocity_, &force_, &couple_, &lower_couple_, &applied_force_}) {
+    vectors->clear(n);
+  }
+}
+
+void RodMotion::makeView(std::size_t elements) {
+  kernels_ = &kernels::motionKernels();
+  view_.size = elements;
+  view_.rest_length = rest_length_.data();
+  view_.inverse_length = inverse_length_.data();
+  view_.inverse_voronoi = inverse_voronoi_.data();
+  view_.inverse_mass = inverse_mass_.data();
+  view_.inverse_inertia = inverse_inertia_.data();
+  view_.stretch_stiffness = stretch_stiffness_.columns();
+  view_.rest_stretch = rest_stretch_.columns();
+  view_.bend_stiffness = bend_stiffness_.columns();
+  view_.rest_curvature = rest_curvature_.columns();
+  view_.applied_force = applied_force_.columns();
+  view_.applied_couple = dead_couple_.columns();
+  view_.position = position_.columns();
+  view_.frame = {{frame_.w.data(), frame_.v.x.data(), frame_.v.y.data(), frame_.v.z.data()}};
+  view_.velocity = velocity_.columns();
+  view_.angular_velocity = angular_velocity_.columns();
+  view_.force = force_.columns();
+  view_.couple = couple_.columns();
+  view_.lower_couple = lower_couple_.columns();
+  view_.current_length = current_length_.data();
 }
 
 void RodMotion::write(rod::Rod& rod) const {
@@ -142,83 +136,27 @@ void RodMotion::write(rod::Rod& rod) const {
 }
 
 void RodMotion::stop() {
-  velocity_.setZero();
-  angular_velocity_.setZero();
+  velocity_.clear(velocity_.x.size());
+  angular_velocity_.clear(angular_velocity_.x.size());
 }
 
 void RodMotion::setTimeStep(double dt, double damping) {
-  dt_ = dt;
-  decay_ = std::exp(-damping * dt);
-  impulse_ = dt * std::exp(-0.5 * damping * dt);  // half of the decay before the force, half of it after
+  // Half of the decay comes before the force, half of it after.
+  kick_ = {dt, std::exp(-damping * dt), dt * std::exp(-0.5 * damping * dt)};
 }
 
-void RodMotion::drift(double dt) {
-  for (std::size_t e = 0; e < size(); ++e) {
-    store(position_, e + 1, load(position_, e + 1) + dt * load(velocity_, e));
-    storeFrame(frame_, e + 1, formulas::turned(loadFrame(frame_, e + 1), dt * load(angular_velocity_, e)));
-  }
-}
+void RodMotion::drift(double dt) { kernels_->drift(view_, dt); }
 
 void RodMotion::evaluate() {
-  if (dilatation_) {
-    measureLengths();
-    evaluateAs<true>();
-  } else {
-    evaluateAs<false>();
-  }
+  dilatation_ ? kernels_->evaluateClassical(view_) : kernels_->evaluate(view_);
   if (!surroundings_.empty()) addUpForces();
 }
 
-template <bool kDilatation>
-void RodMotion::evaluateAs() {
-  for (std::size_t e = 0; e < size(); ++e) {
-    const Frame<double> frame = loadFrame(frame_, e + 1);
-    const Triple<double> v =
-        formulas::stretchVector(frame, load(position_, e + 1) - load(position_, e), inverse_length_[e]);
-    Triple<double> p = formulas::materialForce(v, load(rest_stretch_, e), load(stretch_stiffness_, e));
-    formulas::BendCouples<double> bend =
-        formulas::bendCouples(formulas::between(loadFrame(frame_, e), frame), inverse_voronoi_[e],
-                              load(rest_curvature_, e), load(bend_stiffness_, e));
-    if (kDilatation) {
-      p = (rest_length_[e] / current_length_[e + 1]) * p;
-      const double stretch = 0.5 * (current_length_[e] + current_length_[e + 1]) * inverse_voronoi_[e];
-      const double scale = 1.0 / (stretch * stretch * stretch);
-      bend = {scale * bend.lower, scale * bend.upper};
-    }
-    store(force_, e, formulas::toWorld(frame, p));
-    store(couple_, e, rest_length_[e] * formulas::cross(v, p) - bend.upper);
-    store(lower_couple_, e, bend.lower);
-  }
-}
-
-void RodMotion::measureLengths() {
-  for (std::size_t e = 0; e < size(); ++e) {
-    const Triple<double> chord = load(position_, e + 1) - load(position_, e);
-    current_length_[e + 1] = std::sqrt(formulas::dot(chord, chord));
-  }
-}
+void RodMotion::kickAndDrift(double dt) { kernels_->kickAndDrift(view_, kick_, dt); }
 
 void RodMotion::addUpForces() {
   for (std::size_t e = 0; e < size(); ++e) {
     applied_force_.set(e, share_ * dead_force_.at(e) + surroundingForce(surroundings_, e + 1, position_.at(e + 1)));
-  }
-}
-
-void RodMotion::kickAndDrift(double dt) {
-  for (std::size_t e = 0; e < size(); ++e) {
-    const Triple<double> force = load(applied_force_, e) + (load(force_, e + 1) - load(force_, e));
-    const Triple<double> velocity = decay_ * load(velocity_, e) + (impulse_ * inverse_mass_[e]) * force;
-    store(velocity_, e, velocity);
-    store(position_, e + 1, load(position_, e + 1) + dt * velocity);
-
-    // Moments of inertia are in the ratio 1:1:2. Half of the impulse comes before the precession, half after it, so
-    // that the step can be reversed.
-    const Triple<double> couple = load(dead_couple_, e) + (load(couple_, e) + load(lower_couple_, e + 1));
-    const double scale = 0.5 * impulse_ * inverse_inertia_[e];
-    const Triple<double> half{scale * couple.x, scale * couple.y, 0.5 * scale * couple.z};
-    const Triple<double> turning = formulas::precessed(decay_ * load(angular_velocity_, e) + half, dt_) + half;
-    store(angular_velocity_, e, turning);
-    storeFrame(frame_, e + 1, formulas::turned(loadFrame(frame_, e + 1), dt * turning));
   }
 }
 

@@ -14,8 +14,9 @@
 
 #include <gtest/gtest.h>
 
+#include "kernels/motion_formulas.h"
 #include "sensory_growth/mechanics/energy.h"
-#include "sensory_growth/mechanics/motion_formulas.h"
+#include "sensory_growth/mechanics/instruction_set.h"
 #include "sensory_growth/mechanics/static_equilibrium.h"
 #include "sensory_growth/rod/division.h"
 #include "support/rods.h"
@@ -47,9 +48,14 @@ double largestDistance(const rod::Rod& a, const rod::Rod& b) {
 // ---------------------------------------------------------------------------------------------------------------------
 // Formulas
 
-Vector3 toVector(const formulas::Triple<double>& a) { return {a.x, a.y, a.z}; }
-formulas::Triple<double> toTriple(const Vector3& a) { return {a.x(), a.y(), a.z()}; }
-formulas::Frame<double> toFrame(const rod::Quaternion& q) { return {q.w(), toTriple(q.vec())}; }
+double first(const kernels::Lanes& lanes) {
+  alignas(64) double lane[kernels::Lanes::size];
+  kernels::store(lanes, lane);
+  return lane[0];
+}
+Vector3 toVector(const kernels::Vector& a) { return {first(a[0]), first(a[1]), first(a[2])}; }
+kernels::Vector toLanes(const Vector3& a) { return {kernels::Lanes(a[0]), kernels::Lanes(a[1]), kernels::Lanes(a[2])}; }
+kernels::Quaternion toLanes(const rod::Quaternion& q) { return {kernels::Lanes(q.w()), toLanes(Vector3(q.vec()))}; }
 
 TEST(MotionFormulas, CouplesOfABendAreThoseOfTheStatics) {
   std::mt19937 generator(1);
@@ -59,8 +65,8 @@ TEST(MotionFormulas, CouplesOfABendAreThoseOfTheStatics) {
       const Vector3 rest = support::randomVector(generator, 1.0);
       const Vector3 stiffness(2.0, 3.0, 5.0);
       const rod::Quaternion below = rod::exp(support::randomVector(generator, 1.5));
-      const auto couples = formulas::bendCouples(formulas::between(toFrame(below), toFrame(below * rod::exp(theta))),
-                                                 4.0, toTriple(rest), toTriple(stiffness));
+      const kernels::Quaternion turn = kernels::between(toLanes(below), toLanes(below * rod::exp(theta)));
+      const auto couples = kernels::bendCouples(turn, kernels::Lanes(4.0), toLanes(rest), toLanes(stiffness));
       const Vector3 m = stiffness.cwiseProduct(4.0 * theta - rest);
       EXPECT_LT((toVector(couples.upper) - rod::leftJacobianInverse(theta) * m).norm(), 1e-14 * (10.0 + m.norm()));
       EXPECT_LT((toVector(couples.lower) - rod::leftJacobianInverse(-theta) * m).norm(), 1e-14 * (10.0 + m.norm()));
@@ -73,8 +79,10 @@ TEST(MotionFormulas, TurnFramesByTheExponential) {
   for (const double angle : {0.0, 1e-9, 1e-3, 0.05, 0.2}) {
     const Vector3 theta = angle * support::randomVector(generator, 1.0).normalized();
     const rod::Quaternion before = rod::exp(support::randomVector(generator, 1.5));
-    const formulas::Frame<double> turned = formulas::turned(toFrame(before), toTriple(theta));
-    const rod::Quaternion after(turned.w, turned.v.x, turned.v.y, turned.v.z);
+    const kernels::Quaternion turned = kernels::turnedLittle(toLanes(before), toLanes(theta));
+    rod::Quaternion after;
+    after.w() = first(turned.w);
+    after.vec() = toVector(turned.v);
     EXPECT_LT((after.coeffs() - (before * rod::exp(theta)).coeffs()).norm(), 1e-15);
   }
 }
@@ -217,6 +225,30 @@ double tipChangeByDilatation(double slenderness) {
 TEST(DynamicRelaxation, DilatationMovesTheTipByAboutTheAxialStrain) {
   EXPECT_NEAR(tipChangeByDilatation(20.0), 2.4e-3, 0.1e-3);  // model.md 1.5
   EXPECT_NEAR(tipChangeByDilatation(100.0), 9e-5, 1e-5);
+}
+
+TEST(DynamicRelaxation, AgreesBetweenInstructionSets) {
+  // Any number of elements modulo the width of vectors; the classical law too.
+  const InstructionSet widest = instructionSet();
+  for (const bool dilatation : {false, true}) {
+    for (std::size_t n = 1; n <= 17; ++n) {
+      DynamicsSettings settings;
+      settings.dilatation = dilatation;
+      rod::Rod reference;
+      for (const InstructionSet set : availableInstructionSets()) {
+        useInstructionSet(set);
+        std::mt19937 generator(static_cast<unsigned>(n));
+        rod::Rod rod = support::randomRod(generator, n);
+        for (rod::Bend& b : rod.bends) b.curvature = b.rest_curvature *= 0.3;  // not beyond what one element resolves
+        rod.rebuild();
+        const RelaxationReport report = DynamicRelaxation(settings).advance(rod, allKinds(), 20.0 * waveTime(rod));
+        ASSERT_TRUE(report.ok()) << n << " elements, " << name(set) << ": " << describe(report);
+        if (reference.size() == 0) reference = rod;
+        EXPECT_LT(largestDistance(rod, reference), 1e-12) << n << " elements, " << name(set);
+      }
+    }
+  }
+  useInstructionSet(widest);
 }
 
 // ---------------------------------------------------------------------------------------------------------------------

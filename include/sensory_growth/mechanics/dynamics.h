@@ -5,11 +5,11 @@
 /// Forces derive from the energy that the statics minimises, so both end in the same shape; this one takes tens of
 /// thousands of steps for it. It follows the rod down from where it stands, so it never jumps between branches.
 
+#include <memory>
 #include <optional>
 
 #include "sensory_growth/mechanics/loads.h"
 #include "sensory_growth/mechanics/relaxation.h"
-#include "sensory_growth/mechanics/rod_motion.h"
 #include "sensory_growth/rod/rod.h"
 
 namespace sensory_growth::mechanics {
@@ -30,7 +30,7 @@ struct DynamicsSettings {
   bool dilatation = false;  ///< the classical law, which has no potential, instead of the energy's (model.md 1.5)
 
   StoppingRule stopping = StoppingRule::residual;
-  double tolerance = 1e-9;  ///< residual rule: on the scaled residual [-], in (0, 1); or RodMotion::restingResidual()
+  double tolerance = 1e-9;     ///< residual rule: on the scaled residual [-], in (0, 1); docs/model.md 13
   double rest_energy = 1e-12;  ///< the draft's rule: bound on the rotational kinetic energy [J]; > 0
   int rest_steps = 500;        ///< the draft's rule: time steps in a row [-]; >= 1
 };
@@ -43,9 +43,15 @@ double firstFrequency(const rod::Rod& rod);
 /// min(h sqrt(rho / E), R sqrt(rho / G)) over the elements [s]; zero if one is inextensible or has no mass.
 double waveTime(const rod::Rod& rod);
 
+class RodMotion;
+
+/// Owns the work space of its steps.
 class DynamicRelaxation {
  public:
-  explicit DynamicRelaxation(const DynamicsSettings& settings = {}) : settings_(settings) {}
+  explicit DynamicRelaxation(const DynamicsSettings& settings = {});
+  ~DynamicRelaxation();
+  DynamicRelaxation(DynamicRelaxation&&) noexcept;
+  DynamicRelaxation& operator=(DynamicRelaxation&&) noexcept;
 
   /// Lets the rod move from where it stands, starting at rest, until it rests. Forces that it does not carry yet
   /// come on smoothly. On failure the rod is left as it was given.
@@ -63,7 +69,7 @@ class DynamicRelaxation {
   bool isStable(const rod::Rod& rod, const Loads& loads, RelaxationReport& report) const;
 
   DynamicsSettings settings_;
-  RodMotion motion_;
+  std::unique_ptr<RodMotion> motion_;
 };
 
 }  // namespace sensory_growth::mechanics

@@ -2,13 +2,13 @@
 
 /// A rod in motion: position Verlet for its vertices and frames (model.md 13; Gazzola et al. 2018).
 ///
-/// The forces derive from the energy that the statics minimises. State and parameters are structures of arrays, so that
-/// a step runs through memory once per pass and all elements are independent of each other within a pass; a step
-/// allocates nothing.
+/// The forces derive from the energy that the statics minimises. State and parameters are structures of arrays for the
+/// kernels, which work on several neighbouring elements at once. A step allocates nothing.
 
 #include <cstddef>
 #include <vector>
 
+#include "kernels/motion_kernels.h"
 #include "sensory_growth/mechanics/loads.h"
 #include "sensory_growth/rod/rod.h"
 
@@ -24,7 +24,7 @@ class RodMotion {
   /// Writes positions, frames, strains and velocities. Expects the rod that was assigned.
   void write(rod::Rod& rod) const;
 
-  std::size_t size() const { return rest_length_.size(); }
+  std::size_t size() const { return view_.size; }
 
   /// Sets all velocities to zero.
   void stop();
@@ -75,8 +75,8 @@ class RodMotion {
   struct Vectors {
     std::vector<double> x, y, z;
 
-    void resize(std::size_t n);
-    void setZero();
+    void clear(std::size_t n);  ///< n zeros each
+    kernels::Columns3 columns() { return {{x.data(), y.data(), z.data()}}; }
     rod::Vector3 at(std::size_t i) const { return {x[i], y[i], z[i]}; }
     void set(std::size_t i, const rod::Vector3& v);
   };
@@ -88,15 +88,15 @@ class RodMotion {
     void set(std::size_t i, const rod::Quaternion& q);
   };
 
-  template <bool kDilatation>
-  void evaluateAs();
-  void measureLengths();
+  void clear(std::size_t elements);
+  void makeView(std::size_t elements);
   void addUpForces();
   rod::Vector3 freeForce(std::size_t e) const;
   rod::Vector3 freeCouple(std::size_t e) const;
 
-  // Indices: element e, vertex e + 1 and bend e share index e, unless a comment says more. What belongs to vertex 0
-  // is left out, for it is held.
+  const kernels::MotionKernels* kernels_ = nullptr;
+  kernels::MotionView view_;  // of the arrays below, which are explained there
+  kernels::Kick kick_;
   std::vector<double> rest_length_, inverse_length_, inverse_voronoi_, inverse_mass_, inverse_inertia_;
   Vectors stretch_stiffness_, rest_stretch_, bend_stiffness_, rest_curvature_;
   Vectors dead_force_, dead_couple_;
@@ -106,19 +106,11 @@ class RodMotion {
   double energy_scale_ = 0.0;
   double rest_length_sum_ = 0.0;
   bool dilatation_ = false;
-  double dt_ = 0.0, decay_ = 1.0, impulse_ = 0.0;
 
-  Vectors position_;          ///< vertex v at v: n + 1
-  Frames frame_;              ///< the base at 0, element e at e + 1
-  Vectors velocity_;          ///< world components [m/s]
-  Vectors angular_velocity_;  ///< material components [rad/s]
-
-  Vectors force_;                       ///< of an element on its lower vertex, world components [N]; a zero at the end
-  Vectors couple_;                      ///< on an element, of its own force and of the bend below it [N m]
-  Vectors lower_couple_;                ///< of a bend on the element below it [N m]; a zero at the end
-  std::vector<double> current_length_;  ///< of element e at e + 1, zero at 0 [m]; for the classical law only
-
-  Vectors applied_force_;  ///< dead ones and those of the surroundings
+  Vectors position_, velocity_, angular_velocity_;
+  Frames frame_;
+  Vectors force_, couple_, lower_couple_, applied_force_;
+  std::vector<double> current_length_;
   double share_ = 1.0;
 };
 
