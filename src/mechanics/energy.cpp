@@ -30,4 +30,17 @@ Energy energy(const rod::Rod& rod, const Loads& loads) {
   return sum;
 }
 
+double kineticEnergy(const rod::Rod& rod) {
+  double sum = 0.0;
+  for (std::size_t v = 0; v <= rod.size(); ++v) {
+    sum += 0.5 * rod.vertexMass(v) * rod.vertices[v].velocity.squaredNorm();
+  }
+  for (const rod::Element& e : rod.elements) {
+    const double inertia = e.section.density * e.rest_length * e.section.secondMoment();
+    const Vector3& w = e.angular_velocity;
+    sum += 0.5 * inertia * (w.squaredNorm() + w.z() * w.z());  // the moments of inertia are in the ratio 1:1:2
+  }
+  return sum;
+}
+
 }  // namespace sensory_growth::mechanics

@@ -20,6 +20,8 @@ const char* name(RelaxationReason reason) {
       return "out_of_reach";
     case RelaxationReason::not_finite:
       return "not_finite";
+    case RelaxationReason::no_time_step:
+      return "no_time_step";
   }
   return "?";
 }
@@ -27,22 +29,27 @@ const char* name(RelaxationReason reason) {
 namespace {
 
 /// What a person can do about it.
-const char* advice(RelaxationReason reason) {
-  switch (reason) {
+const char* advice(const RelaxationReport& report) {
+  switch (report.reason) {
     case RelaxationReason::converged:
       return "";
     case RelaxationReason::too_many_iterations:
-      return "; allow more iterations or take shorter steps";
+      return report.in_time ? "; allow more periods, or take a damping nearer to critical"
+                            : "; allow more iterations or take shorter steps";
     case RelaxationReason::line_search_failed:
       return "; take shorter steps";
     case RelaxationReason::unstable:
-      return "; take shorter steps or allow more branch switches";
+      return report.in_time ? "; a rod in exact balance never leaves it: let the base or the loads lean a little"
+                            : "; take shorter steps or allow more branch switches";
     case RelaxationReason::unresolved_bend:
       return "; use shorter elements";
     case RelaxationReason::out_of_reach:
       return "; the rod cannot meet its rigid walls or the place where its apex is held";
     case RelaxationReason::not_finite:
-      return "; a length, force or curvature is not a number";
+      return report.in_time ? "; a length, force or curvature is not a number, or the time step is too long"
+                            : "; a length, force or curvature is not a number";
+    case RelaxationReason::no_time_step:
+      return "; elements that are inextensible or have no mass need static relaxation";
   }
   return "";
 }
@@ -51,10 +58,16 @@ const char* advice(RelaxationReason reason) {
 
 std::string describe(const RelaxationReport& report) {
   std::ostringstream out;
-  out << name(report.reason) << " after " << report.iterations << " Newton iterations, scaled residual "
-      << report.residual << ", lowest eigenvalue " << report.lowest_eigenvalue << " N m, " << report.branch_switches
-      << " branch switches, " << (report.load_steps > 0 ? std::to_string(report.load_steps) + " load steps, " : "")
-      << "largest turn between elements " << report.largest_bend << " rad" << advice(report.reason);
+  out << name(report.reason) << " after " << report.iterations;
+  if (report.in_time) {
+    out << " time steps (" << report.time << " s), kinetic energy " << report.kinetic_energy << " J";
+  } else {
+    out << " Newton iterations";
+  }
+  out << ", scaled residual " << report.residual << ", lowest eigenvalue " << report.lowest_eigenvalue << " N m, "
+      << report.branch_switches << " branch switches, "
+      << (report.load_steps > 0 ? std::to_string(report.load_steps) + " load steps, " : "")
+      << "largest turn between elements " << report.largest_bend << " rad" << advice(report);
   return out.str();
 }
 

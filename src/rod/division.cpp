@@ -24,6 +24,9 @@ Daughters daughters(const Element& parent, const Vector3& lower_curvature, const
   d.lower.reference_length = d.upper.reference_length = 0.5 * parent.reference_length;
   d.lower.frame = (parent.frame * exp(-quarter * lower_curvature)).normalized();
   d.upper.frame = (parent.frame * exp(quarter * upper_curvature)).normalized();
+  const Vector3 turning = parent.frame * parent.angular_velocity;  // the same for both in the world
+  d.lower.angular_velocity = d.lower.frame.conjugate() * turning;
+  d.upper.angular_velocity = d.upper.frame.conjugate() * turning;
   if (mode == DivisionMode::keep_positions) {
     // The mean of two different rotations shortens vectors; both daughters share the defect.
     const Vector3 v = Vector3::UnitZ() + parent.strain;
@@ -82,6 +85,7 @@ std::size_t divide(Rod& rod, const std::vector<bool>& selected, DivisionMode mod
       }
       Vertex middle;
       middle.label = 0.5 * (rod.vertices[e].label + rod.vertices[e + 1].label);
+      middle.velocity = 0.5 * (rod.vertices[e].velocity + rod.vertices[e + 1].velocity);
       // From below the new vertex is at l/2 R_a (v + R_a^T c), which is the chord midpoint plus the sagitta.
       middle.position =
           rod.vertices[e].position + d.lower.rest_length * (d.lower.frame * (Vector3::UnitZ() + d.lower.strain));

@@ -26,6 +26,8 @@ std::uint8_t toConstant(RelaxationReason reason) {
       return Relaxation::OUT_OF_REACH;
     case RelaxationReason::not_finite:
       return Relaxation::NOT_FINITE;
+    case RelaxationReason::no_time_step:
+      return Relaxation::NO_TIME_STEP;
   }
   return Relaxation::NOT_FINITE;
 }
@@ -125,7 +127,7 @@ Relaxation toMessage(const simulation::OrganReport& report) {
   Relaxation message;
   message.reason = toConstant(report.relaxation.reason);
   message.iterations = static_cast<std::uint32_t>(report.relaxation.iterations);
-  message.step_iterations = static_cast<std::uint32_t>(report.newton_iterations);
+  message.step_iterations = static_cast<std::uint32_t>(report.iterations);
   message.residual = report.relaxation.residual;
   message.lowest_eigenvalue = report.relaxation.lowest_eigenvalue;
   message.largest_bend = report.relaxation.largest_bend;

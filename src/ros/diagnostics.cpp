@@ -52,8 +52,9 @@ void reportRelaxation(const OrganSnapshot& organ, DiagnosticStatusWrapper& statu
   }
   status.add("reason", mechanics::name(relaxation.reason));
   status.add("iterations", relaxation.iterations);
-  status.add("iterations of the step", report.newton_iterations);
+  status.add("iterations of the step", report.iterations);
   status.add("residual", relaxation.residual);
+  status.add("kinetic energy [J]", relaxation.kinetic_energy);
   status.add("lowest eigenvalue [N m]", relaxation.lowest_eigenvalue);
   status.add("branch switches", report.branch_switches);
   status.add("largest turn between elements [rad]", relaxation.largest_bend);

@@ -15,8 +15,13 @@ Organ::Organ(const OrganScenario& organ, const Scenario& scenario)
     : scenario_(organ),
       stepping_(scenario.stepping),
       method_(scenario.relaxation),
+      growth_per_second_(scenario.growth_per_second),
       relaxation_settings_(scenario.relaxation_settings),
-      equilibrium_(scenario.relaxation_settings) {
+      equilibrium_(scenario.relaxation_settings),
+      dynamics_(scenario.dynamics_settings) {
+  if (method_ == RelaxationMethod::continuous && !(growth_per_second_ > 0.0)) {
+    throw std::invalid_argument("growth_per_second must be positive");
+  }
   if (scenario.weight) loads_.gravity = scenario.gravity;
   loads_.tip_force = organ.tip_force;
 
@@ -82,28 +87,44 @@ OrganFault Organ::growAndRelax(double dt, const growth::Environment& environment
                                                             : elongation_.strainAtFixedLength(rod_, rates_, dt);
   if (scenario_.elongation) growth::elongate(rod_, strain);
   growth::predict(rod_, scenario_.bending, strain, drive_);
+  // Growth carries the rod along: left in place, it would be compressed and ring (model.md 11.1).
   rod_.rebuild();
-  if (relax() != OrganFault::none) return OrganFault::relaxation;
+  const bool moves = method_ == RelaxationMethod::continuous;
+  if ((moves ? move(dt / growth_per_second_) : relax()) != OrganFault::none) return OrganFault::relaxation;
 
   if (stepping_.second_order) {
     growth::drive(scenario_.bending, environment, rod_, new_drive_);
     growth::correct(rod_, scenario_.bending, strain, drive_, new_drive_);
     rod_.rebuild();
-    if (relax() != OrganFault::none) return OrganFault::relaxation;
+    if (!moves && relax() != OrganFault::none) return OrganFault::relaxation;
   }
 
   const std::size_t divisions = rod::divideLongElements(rod_, scenario_.longest_element, scenario_.division);
   report_.divisions += divisions;
   if (rod_.size() > kMostElements) return OrganFault::too_many_elements;
-  return divisions == 0 ? OrganFault::none : relax();
+  return divisions == 0 || moves ? OrganFault::none : relax();
 }
 
 OrganFault Organ::relax() {
-  report_.relaxation = method_ == RelaxationMethod::statics ? equilibrium_.relax(rod_, loads_)
-                                                            : mechanics::assumeRestShape(rod_, relaxation_settings_);
-  report_.newton_iterations += report_.relaxation.iterations;
-  report_.branch_switches += report_.relaxation.branch_switches;
-  return report_.relaxation.ok() ? OrganFault::none : OrganFault::relaxation;
+  switch (method_) {
+    case RelaxationMethod::statics:
+      return take(equilibrium_.relax(rod_, loads_));
+    case RelaxationMethod::dynamics:
+    case RelaxationMethod::continuous:
+      return take(dynamics_.relax(rod_, loads_));
+    case RelaxationMethod::kinematics:
+      return take(mechanics::assumeRestShape(rod_, relaxation_settings_));
+  }
+  return OrganFault::none;
+}
+
+OrganFault Organ::move(double duration) { return take(dynamics_.advance(rod_, loads_, duration)); }
+
+OrganFault Organ::take(const mechanics::RelaxationReport& relaxation) {
+  report_.relaxation = relaxation;
+  report_.iterations += relaxation.iterations;
+  report_.branch_switches += relaxation.branch_switches;
+  return relaxation.ok() ? OrganFault::none : OrganFault::relaxation;
 }
 
 /// Leaves the growth rates and the drive of the organ as it stands in rates_ and drive_.

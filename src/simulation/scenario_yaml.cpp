@@ -65,15 +65,7 @@ void readStepping(YamlReader& in, Stepping& stepping) {
   in.section("limits", kOptional, [&](YamlReader& limits) { readLimits(limits, stepping.limits); });
 }
 
-void readRelaxation(YamlReader& in, Scenario& scenario) {
-  const auto method = in.choice<RelaxationMethod>(
-      "method", {{"static", RelaxationMethod::statics}, {"kinematic", RelaxationMethod::kinematics}},
-      scenario.relaxation);
-  if (!method) return in.ignoreOtherKeys();
-  scenario.relaxation = *method;
-  if (method == RelaxationMethod::kinematics) return;
-
-  mechanics::RelaxationSettings& settings = scenario.relaxation_settings;
+void readStatics(YamlReader& in, mechanics::RelaxationSettings& settings) {
   settings.tolerance = in.number("tolerance", above(0).below(1), settings.tolerance);
   settings.max_iterations = in.count("max_iterations", 1, 1000000, settings.max_iterations);
   settings.max_branch_switches = in.count("max_branch_switches", 0, 1000, settings.max_branch_switches);
@@ -82,13 +74,58 @@ void readRelaxation(YamlReader& in, Scenario& scenario) {
       in.quantity("max_bend_angle", dimension::angle, above(0).below(kPi), settings.max_bend_angle);
 }
 
+void readDynamics(YamlReader& in, mechanics::DynamicsSettings& settings) {
+  if (in.has("damping")) settings.damping = in.quantity("damping", dimension::rate, atLeast(0));
+  settings.time_step = in.number("time_step", above(0).upTo(1), settings.time_step);
+  settings.ramp_periods = in.number("ramp_periods", atLeast(0), settings.ramp_periods);
+  settings.max_periods = in.number("max_periods", above(0).upTo(1e6), settings.max_periods);
+  settings.max_bend_angle =
+      in.quantity("max_bend_angle", dimension::angle, above(0).upTo(2.0), settings.max_bend_angle);
+  settings.dilatation = in.flag("dilatation", settings.dilatation);
+  const auto stopping =
+      in.choice<mechanics::StoppingRule>("stopping",
+                                         {{"residual", mechanics::StoppingRule::residual},
+                                          {"rotational_energy", mechanics::StoppingRule::rotational_energy}},
+                                         settings.stopping);
+  if (!stopping) return in.ignoreOtherKeys();
+  settings.stopping = *stopping;
+  if (stopping == mechanics::StoppingRule::residual) {
+    settings.tolerance = in.number("tolerance", above(0).below(1), settings.tolerance);
+  } else {
+    settings.rest_energy = in.quantity("rest_energy", dimension::energy, above(0), settings.rest_energy);
+    settings.rest_steps = in.count("rest_steps", 1, 1000000000, settings.rest_steps);
+  }
+}
+
+void readRelaxation(YamlReader& in, Scenario& scenario) {
+  const auto method = in.choice<RelaxationMethod>("method",
+                                                  {{"static", RelaxationMethod::statics},
+                                                   {"dynamic", RelaxationMethod::dynamics},
+                                                   {"continuous", RelaxationMethod::continuous},
+                                                   {"kinematic", RelaxationMethod::kinematics}},
+                                                  scenario.relaxation);
+  if (!method) return in.ignoreOtherKeys();
+  scenario.relaxation = *method;
+  switch (*method) {
+    case RelaxationMethod::statics:
+      return readStatics(in, scenario.relaxation_settings);
+    case RelaxationMethod::dynamics:
+      return readDynamics(in, scenario.dynamics_settings);
+    case RelaxationMethod::continuous:
+      scenario.growth_per_second = in.quantity("growth_per_second", dimension::time, above(0));
+      return readDynamics(in, scenario.dynamics_settings);
+    case RelaxationMethod::kinematics:
+      return;
+  }
+}
+
 void readBase(YamlReader& in, rod::Pose& base) {
   base.position = in.vector("position", dimension::length);
   const Vector3 direction = in.direction("direction");
   base.frame = frameAlong(direction, in.quantity("roll", dimension::angle, anyNumber, 0.0));
 }
 
-void readMaterial(YamlReader& in, rod::Section& section) {
+void readMaterial(YamlReader& in, RelaxationMethod relaxation, rod::Section& section) {
   section.young_modulus = in.quantity("young_modulus", dimension::modulus, above(0));
   enum class Given { poisson_ratio, shear_modulus };
   const auto given =
@@ -101,6 +138,10 @@ void readMaterial(YamlReader& in, rod::Section& section) {
   section.density = in.quantity("density", dimension::density, above(0));
   section.shear_correction = in.number("shear_correction", above(0).upTo(1), section.shear_correction);
   section.inextensible = in.flag("inextensible", section.inextensible);
+  const bool in_time = relaxation == RelaxationMethod::dynamics || relaxation == RelaxationMethod::continuous;
+  if (section.inextensible && in_time) {
+    in.addProblem("inextensible", "'true' needs static relaxation: no time step is short enough for it; give false");
+  }
 }
 
 double readRate(YamlReader& in) { return in.quantity("rate", dimension::rate, atLeast(0)); }
@@ -144,9 +185,8 @@ void readDivision(YamlReader& in, RelaxationMethod relaxation, OrganScenario& or
   if (!mode) return;
   organ.division = *mode;
   if (mode == rod::DivisionMode::keep_positions && relaxation == RelaxationMethod::kinematics) {
-    in.addProblem("mode",
-                  "'keep_positions' needs static relaxation: it leaves a strain defect that kinematic relaxation never "
-                  "removes; give 'keep_strain'");
+    in.addProblem(
+        "mode", "'keep_positions' leaves a strain defect that kinematic relaxation never removes; give 'keep_strain'");
   }
 }
 
@@ -157,7 +197,7 @@ OrganScenario readOrgan(YamlReader& in, RelaxationMethod relaxation, IdLines& id
   organ.length = in.quantity("length", dimension::length, above(0));
   organ.elements = static_cast<std::size_t>(in.count("elements", 1, kMostElements));
   organ.section.radius = in.quantity("radius", dimension::length, above(0));
-  in.section("material", kRequired, [&](YamlReader& material) { readMaterial(material, organ.section); });
+  in.section("material", kRequired, [&](YamlReader& material) { readMaterial(material, relaxation, organ.section); });
   in.section("growth", kRequired, [&](YamlReader& growth) { readGrowth(growth, organ); });
   in.section("sensitivities", kRequired,
              [&](YamlReader& sensitivities) { readSensitivities(sensitivities, organ.bending.sensitivities); });

@@ -22,9 +22,9 @@ using Converter = std::unique_ptr<cv_converter, decltype(&cv_free)>;
 
 constexpr const char* kBlanks = " \t";
 
-constexpr std::array kAllDimensions{dimension::length,  dimension::time,      dimension::rate,
-                                    dimension::angle,   dimension::curvature, dimension::acceleration,
-                                    dimension::modulus, dimension::density,   dimension::force};
+constexpr std::array kAllDimensions{
+    dimension::length,       dimension::time,    dimension::rate,    dimension::angle, dimension::curvature,
+    dimension::acceleration, dimension::modulus, dimension::density, dimension::force, dimension::energy};
 
 /// Products and quotients of named units with small powers, "1" only as the first numerator. This leaves out what
 /// udunits2 also reads: factors ("mm 2"), origins ("K @ 273"), logarithms and dates.

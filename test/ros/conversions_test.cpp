@@ -59,7 +59,7 @@ TEST(RelaxationMessage, KeepsReasonAndFigures) {
   simulation::OrganReport report;
   report.relaxation.reason = mechanics::RelaxationReason::unresolved_bend;
   report.relaxation.iterations = 5;
-  report.newton_iterations = 9;
+  report.iterations = 9;
   report.substeps = 3;
   report.retries = 2;
   report.divisions = 1;

@@ -374,8 +374,8 @@ INSTANTIATE_TEST_SUITE_P(
         Spoilt{"{method: static, max_iterations: 100}", "static", "relaxation", "^is 'static'; give a mapping of keys"},
         Spoilt{"{method: static, max_iterations: 100}", "[static]", "relaxation", "^is a sequence; give a mapping"},
         Spoilt{"{method: static, max_iterations: 100}", "", "relaxation", "^is empty; give a mapping"},
-        Spoilt{"method: static", "method: dynamic", "relaxation.method",
-               "^'dynamic' is not known; give 'static' or 'kinematic'$"},
+        Spoilt{"method: static", "method: elastic", "relaxation.method",
+               "^'elastic' is not known; give 'static', 'dynamic', 'continuous' or 'kinematic'$"},
         Spoilt{"profile: apical_flat", "profile: apical", "organs[0].growth.profile", "give 'logistic', 'uniform' or"},
         Spoilt{"mode: keep_strain", "mode: keep", "organs[0].division.mode", "'keep_strain' or 'keep_positions'$"},
         Spoilt{"[0 mm, 0 mm, 0 mm]", "[0 mm, 0 mm]", "organs[0].base.position", "^has 2 components; give a sequence"},
@@ -436,13 +436,99 @@ TEST(ScenarioYaml, KinematicRelaxationRefusesWhatItWouldIgnore) {
   replace("method: static", "method: kinematic");
   replace("keep_strain", "keep_positions");
   replace("[0 N, 0 N, 0 N]", "[1 N, 0 N, 0 N]");
+  EXPECT_EQ(list(problemsOf(kinematic)),
+            "test:3: weight: 'true' has no effect with kinematic relaxation; give false\n"
+            "test:8: relaxation.max_iterations: is an unknown key; known here are 'method'\n"
+            "test:19: organs[0].division.mode: 'keep_positions' leaves a strain defect that kinematic relaxation never "
+            "removes; "
+            "give 'keep_strain'\n"
+            "test:20: organs[0].tip_force: has no effect with kinematic relaxation; leave it out");
+}
+
+TEST(ScenarioYaml, EveryKeyOfDynamicRelaxationIsRead) {
+  const Scenario s = loadScenario(good + "dynamic.yaml");
+  EXPECT_EQ(s.relaxation, RelaxationMethod::dynamics);
+  const mechanics::DynamicsSettings& dynamics = s.dynamics_settings;
+  EXPECT_EQ(dynamics.damping, 20.0);
+  EXPECT_EQ(dynamics.time_step, 0.25);
+  EXPECT_EQ(dynamics.ramp_periods, 5.0);
+  EXPECT_EQ(dynamics.max_periods, 50.0);
+  EXPECT_DOUBLE_EQ(dynamics.max_bend_angle, 0.78539816339744831);
+  EXPECT_TRUE(dynamics.dilatation);
+  EXPECT_EQ(dynamics.stopping, mechanics::StoppingRule::residual);
+  EXPECT_EQ(dynamics.tolerance, 1e-7);
+}
+
+TEST(ScenarioYaml, EveryKeyOfContinuousRelaxationIsRead) {
+  const Scenario s = loadScenario(good + "continuous.yaml");
+  EXPECT_EQ(s.relaxation, RelaxationMethod::continuous);
+  EXPECT_DOUBLE_EQ(s.growth_per_second, 600.0);
+  const mechanics::DynamicsSettings& dynamics = s.dynamics_settings;
+  EXPECT_EQ(dynamics.stopping, mechanics::StoppingRule::rotational_energy);
+  EXPECT_DOUBLE_EQ(dynamics.rest_energy, 2e-12);
+  EXPECT_EQ(dynamics.rest_steps, 700);
+  // Not given: documented defaults.
+  EXPECT_FALSE(dynamics.damping.has_value());
+  EXPECT_EQ(dynamics.time_step, 0.3);
+  EXPECT_EQ(dynamics.ramp_periods, 3.0);
+  EXPECT_EQ(dynamics.max_periods, 200.0);
+  EXPECT_DOUBLE_EQ(dynamics.max_bend_angle, 1.5707963267948966);
+  EXPECT_FALSE(dynamics.dilatation);
+  EXPECT_EQ(dynamics.tolerance, 1e-9);
+}
+
+/// Problems of the valid scenario with another relaxation section, on line 8.
+std::string problemsWithRelaxation(const std::string& keys, const std::string& material = "") {
+  std::string yaml = valid;
+  const std::string piece = "method: static, max_iterations: 100", density = "density: 1000 kg/m^3";
+  yaml.replace(yaml.find(piece), piece.size(), keys);
+  yaml.insert(yaml.find(density) + density.size(), material);
+  return list(problemsOf(yaml));
+}
+
+TEST(ScenarioYaml, EachRelaxationMethodKnowsItsOwnKeys) {
+  const std::string at = "test:8: relaxation.";
+  EXPECT_EQ(problemsWithRelaxation("method: dynamic"), "no problem");
+  EXPECT_EQ(problemsWithRelaxation("method: continuous, growth_per_second: 10 min"), "no problem");
+  EXPECT_EQ(problemsWithRelaxation("method: continuous"),
+            at + "growth_per_second: is missing; give a time such as '10 min'");
+  EXPECT_THAT(problemsWithRelaxation("method: dynamic, growth_per_second: 10 min"),
+              HasSubstr(at + "growth_per_second: is an unknown key"));
+  EXPECT_THAT(problemsWithRelaxation("method: dynamic, max_iterations: 5"),
+              HasSubstr(at + "max_iterations: is an unknown key"));
+  EXPECT_THAT(problemsWithRelaxation("method: static, damping: 5 1/s"), HasSubstr(at + "damping: is an unknown key"));
+  EXPECT_THAT(problemsWithRelaxation("method: dynamic, rest_steps: 5"),
+              HasSubstr(at + "rest_steps: is an unknown key"));
+  EXPECT_THAT(problemsWithRelaxation("method: dynamic, stopping: rotational_energy, tolerance: 1e-9"),
+              HasSubstr(at + "tolerance: is an unknown key"));
+  EXPECT_EQ(problemsWithRelaxation("method: dynamic, stopping: energy"),
+            at + "stopping: 'energy' is not known; give 'residual' or 'rotational_energy'");
+}
+
+TEST(ScenarioYaml, DynamicSettingsHaveUnitsAndRanges) {
+  const std::string at = "test:8: relaxation.";
+  EXPECT_EQ(problemsWithRelaxation("method: dynamic, damping: 5"),
+            at + "damping: '5' has no unit; give a rate such as '0.05 1/h'");
+  EXPECT_EQ(problemsWithRelaxation("method: dynamic, damping: -5 1/s"),
+            at + "damping: '-5 1/s' is out of range; must be >= 0 1/s");
+  EXPECT_EQ(problemsWithRelaxation("method: dynamic, time_step: 1.5"),
+            at + "time_step: '1.5' is out of range; must be > 0 and <= 1");
+  EXPECT_EQ(problemsWithRelaxation("method: dynamic, ramp_periods: -1"),
+            at + "ramp_periods: '-1' is out of range; must be >= 0");
+  EXPECT_EQ(problemsWithRelaxation("method: dynamic, max_periods: 0"),
+            at + "max_periods: '0' is out of range; must be > 0 and <= 1000000");
+  EXPECT_EQ(problemsWithRelaxation("method: dynamic, max_bend_angle: 120 deg"),
+            at + "max_bend_angle: '120 deg' is out of range; must be > 0 rad and <= 2 rad");
+  EXPECT_EQ(problemsWithRelaxation("method: dynamic, stopping: rotational_energy, rest_energy: 1 W"),
+            at + "rest_energy: '1 W' is in units of m2.kg.s-3; give an energy such as '1e-12 J'");
+  EXPECT_EQ(problemsWithRelaxation("method: dynamic, stopping: rotational_energy, rest_steps: 0"),
+            at + "rest_steps: '0' is out of range; must be >= 1 and <= 1000000000");
+  EXPECT_EQ(problemsWithRelaxation("method: continuous, growth_per_second: 0 s"),
+            at + "growth_per_second: '0 s' is out of range; must be > 0 s");
   EXPECT_EQ(
-      list(problemsOf(kinematic)),
-      "test:3: weight: 'true' has no effect with kinematic relaxation; give false\n"
-      "test:8: relaxation.max_iterations: is an unknown key; known here are 'method'\n"
-      "test:19: organs[0].division.mode: 'keep_positions' needs static relaxation: it leaves a strain defect that "
-      "kinematic relaxation never removes; give 'keep_strain'\n"
-      "test:20: organs[0].tip_force: has no effect with kinematic relaxation; leave it out");
+      problemsWithRelaxation("method: dynamic", ", inextensible: true"),
+      "test:15: organs[0].material.inextensible: 'true' needs static relaxation: no time step is short enough for "
+      "it; give false");
 }
 
 TEST(ScenarioYaml, AtLeastOneOrganIsNeeded) {

@@ -21,4 +21,7 @@ rod::Vector3 bendStiffness(const rod::Rod& rod, std::size_t bend);
 /// Energy of the rod as it stands. An inextensible element stores no stretching energy.
 Energy energy(const rod::Rod& rod, const Loads& loads);
 
+/// Energy of the velocities of the rod [J]; zero at rest.
+double kineticEnergy(const rod::Rod& rod);
+
 }  // namespace sensory_growth::mechanics

@@ -25,16 +25,20 @@ enum class RelaxationReason {
   unresolved_bend,     ///< neighbouring elements turned by more than max_bend_angle: the rod needs more elements
   out_of_reach,        ///< rigid walls or a held apex ask for what the rod cannot do
   not_finite,          ///< the input or an iterate holds NaN or infinity
+  no_time_step,        ///< dynamics: elements without mass or stretch would need infinitely short time steps
 };
 
 struct RelaxationReport {
   RelaxationReason reason = RelaxationReason::converged;
-  int iterations = 0;              ///< Newton iterations, all branches together
+  int iterations = 0;              ///< Newton iterations, all branches together, or time steps
   double residual = 0.0;           ///< scaled [-]
   double lowest_eigenvalue = 0.0;  ///< of the Hessian at the end [N m]; close to zero for a free azimuth
   int branch_switches = 0;         ///< unstable equilibria left along their eigenvector
   int load_steps = 0;              ///< parts in which the loads were applied; 0 if they were applied at once
   double largest_bend = 0.0;       ///< largest turn between neighbouring elements [rad]
+  bool in_time = false;            ///< the rod moved in time: iterations are time steps
+  double time = 0.0;               ///< for how long it moved [s]
+  double kinetic_energy = 0.0;     ///< at the end [J]
 
   bool ok() const { return reason == RelaxationReason::converged; }
 };

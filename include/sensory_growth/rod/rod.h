@@ -38,6 +38,7 @@ struct Element {
   Vector3 strain = Vector3::Zero();       ///< sigma: shear along d1, d2 and stretch along d3 [-]
   Vector3 rest_strain = Vector3::Zero();  ///< sigma of the stress-free element [-]
   Quaternion frame = Quaternion::Identity();
+  Vector3 angular_velocity = Vector3::Zero();  ///< material components [rad/s]; zero at rest
 
   double mass() const { return section.lineDensity() * rest_length; }  ///< [kg]
 };
@@ -50,9 +51,11 @@ struct Bend {
 struct Vertex {
   Vector3 position = Vector3::Zero();  ///< [m]
   double label = 0.0;                  ///< material coordinate in [0, 1], fixed for life
+  Vector3 velocity = Vector3::Zero();  ///< [m/s]; zero at rest
 };
 
-/// The strains (curvature, strain) are the state; frames and positions follow from them and the base by rebuild().
+/// The strains (curvature, strain) are the state; frames and positions follow from them and the base by rebuild(). A
+/// rod that moves carries its velocities along, so that whoever copies, divides or takes back a rod does so with them.
 struct Rod {
   Pose base;  ///< at vertex 0
   BaseSupport base_support = BaseSupport::clamped;

@@ -5,6 +5,7 @@
 
 #include "sensory_growth/growth/differential_growth.h"
 #include "sensory_growth/growth/elongation.h"
+#include "sensory_growth/mechanics/dynamics.h"
 #include "sensory_growth/mechanics/energy.h"
 #include "sensory_growth/mechanics/static_equilibrium.h"
 #include "sensory_growth/rod/rod.h"
@@ -26,7 +27,7 @@ struct OrganReport {
   mechanics::RelaxationReport relaxation;  ///< of the last relaxation
   int substeps = 0;                        ///< parts the step was cut into
   int retries = 0;                         ///< parts that were cut again because relaxation failed
-  int newton_iterations = 0;               ///< of all relaxations
+  int iterations = 0;                      ///< Newton iterations or time steps, of all relaxations
   int branch_switches = 0;                 ///< unstable equilibria left, in all relaxations
   std::size_t divisions = 0;
 
@@ -39,7 +40,7 @@ struct OrganReport {
 /// One sentence for people, with the figures.
 std::string describe(const OrganReport& report);
 
-/// One organ: it grows a little, then relaxes to equilibrium (the draft's Figure 1).
+/// One organ: it grows a little, then relaxes to equilibrium (the draft's Figure 1) or moves on for a while.
 class Organ {
  public:
   /// Builds the organ and relaxes it under its load. Throws std::invalid_argument if it cannot be built, naming the
@@ -65,14 +66,18 @@ class Organ {
   double longestPart(const growth::Environment& environment);
   OrganFault growAndRelax(double dt, const growth::Environment& environment);
   OrganFault relax();
+  OrganFault move(double duration);
+  OrganFault take(const mechanics::RelaxationReport& relaxation);
 
   OrganScenario scenario_;
   Stepping stepping_;
   RelaxationMethod method_;
+  double growth_per_second_;
   mechanics::RelaxationSettings relaxation_settings_;
   mechanics::Loads loads_;
   rod::Rod rod_, before_step_, before_part_;
   mechanics::StaticEquilibrium equilibrium_;
+  mechanics::DynamicRelaxation dynamics_;
   growth::Elongation elongation_;
   std::vector<Eigen::Vector2d> drive_, new_drive_;
   std::vector<double> rates_;

@@ -9,6 +9,7 @@
 
 #include "sensory_growth/growth/differential_growth.h"
 #include "sensory_growth/growth/profile.h"
+#include "sensory_growth/mechanics/dynamics.h"
 #include "sensory_growth/mechanics/static_equilibrium.h"
 #include "sensory_growth/rod/division.h"
 #include "sensory_growth/rod/rod.h"
@@ -21,7 +22,9 @@ constexpr std::size_t kMostElements = 100000;
 
 /// How the organ finds its shape once the rest state has grown.
 enum class RelaxationMethod {
-  statics,     ///< elastic equilibrium at every step
+  statics,     ///< elastic equilibrium at every step, by Newton's method
+  dynamics,    ///< the same by damped motion
+  continuous,  ///< no equilibrium: growth and motion go on together
   kinematics,  ///< no elasticity: the organ is its rest state
 };
 
@@ -70,7 +73,9 @@ struct Scenario {
   rod::Vector3 gravity = {0.0, 0.0, -9.81};  ///< [m/s^2]; its direction is what organs sense as down
   bool weight = true;                        ///< off: gravity is sensed but does not load the organs
   RelaxationMethod relaxation = RelaxationMethod::statics;
-  mechanics::RelaxationSettings relaxation_settings;
+  mechanics::RelaxationSettings relaxation_settings;  ///< of statics and kinematics
+  mechanics::DynamicsSettings dynamics_settings;      ///< of dynamics and continuous
+  double growth_per_second = 0.0;  ///< continuous: growth time that passes in a second of motion [s/s]
   Stepping stepping;
   double duration = 0.0;  ///< growth time after which an unattended run ends [s]; 0: never
   std::vector<OrganScenario> organs;

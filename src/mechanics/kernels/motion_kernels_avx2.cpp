@@ -1,0 +1,7 @@
+#include "kernels/motion_kernels.inc"
+
+namespace sensory_growth::mechanics::kernels {
+
+const MotionKernels& motionKernelsAvx2() { return kKernels; }
+
+}  // namespace sensory_growth::mechanics::kernels
