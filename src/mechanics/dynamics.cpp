@@ -15,6 +15,7 @@ constexpr double kRestingEnergy = 1e-12;   // of W L + B / L, model.md 13
 constexpr double kRestingPeriods = 0.5;    // for so long residual and kinetic energy stay small
 constexpr double kChecksPerPeriod = 50.0;  // of the residual rule
 constexpr double kCarried = 0.99;          // share of the loads from which the rest need not come on smoothly
+constexpr int kMostSteps = 1000000000;     // of one call; days of computing
 constexpr double kUnstable = 1e-9;         // of B / L, as in the statics
 
 /// Rises from 0 to 1 with x, with horizontal ends.
@@ -104,11 +105,12 @@ RelaxationReport DynamicRelaxation::advance(rod::Rod& rod, const Loads& loads, d
   motion_->assign(rod, loads, settings_.dilatation);
   RelaxationReport report = reportAtStart(times);
   if (!report.ok()) return report;
-  if (!(duration <= settings_.max_periods * times.first_period)) {
+  const double whole_steps = std::ceil(duration / times.step * (1.0 - 1e-12));
+  if (!(duration <= settings_.max_periods * times.first_period && whole_steps <= kMostSteps)) {
     return stopped(report, RelaxationReason::too_many_iterations);
   }
 
-  const int steps = static_cast<int>(std::ceil(duration / times.step * (1.0 - 1e-12)));
+  const int steps = static_cast<int>(whole_steps);
   if (steps > 0) {
     const double dt = duration / steps;
     motion_->setTimeStep(dt, times.damping);
@@ -179,7 +181,7 @@ void DynamicRelaxation::settle(const Timing& times, RelaxationReport& report) {
       if (!is_quiet) quiet_since = report.time;
       if (report.time - quiet_since > kRestingPeriods * times.first_period) return;
     }
-    if (report.time > settings_.max_periods * times.first_period) {
+    if (report.time > settings_.max_periods * times.first_period || report.iterations == kMostSteps) {
       report.reason = RelaxationReason::too_many_iterations;
       return measure(report);
     }

@@ -95,7 +95,7 @@ class RodMotion {
   rod::Vector3 freeCouple(std::size_t e) const;
 
   const kernels::MotionKernels* kernels_ = nullptr;
-  kernels::MotionView view_;  // of the arrays below, which are explained there
+  kernels::MotionView view_;  // of the arrays below, which are explained where it is declared
   kernels::Kick kick_;
   std::vector<double> rest_length_, inverse_length_, inverse_voronoi_, inverse_mass_, inverse_inertia_;
   Vectors stretch_stiffness_, rest_stretch_, bend_stiffness_, rest_curvature_;

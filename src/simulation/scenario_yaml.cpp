@@ -78,7 +78,7 @@ void readDynamics(YamlReader& in, mechanics::DynamicsSettings& settings) {
   if (in.has("damping")) settings.damping = in.quantity("damping", dimension::rate, atLeast(0));
   settings.time_step = in.number("time_step", above(0).upTo(1), settings.time_step);
   settings.ramp_periods = in.number("ramp_periods", atLeast(0), settings.ramp_periods);
-  settings.max_periods = in.number("max_periods", above(0).upTo(1e6), settings.max_periods);
+  settings.max_periods = in.number("max_periods", above(0).upTo(10000), settings.max_periods);
   settings.max_bend_angle =
       in.quantity("max_bend_angle", dimension::angle, above(0).upTo(2.0), settings.max_bend_angle);
   settings.dilatation = in.flag("dilatation", settings.dilatation);

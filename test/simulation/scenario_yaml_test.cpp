@@ -516,7 +516,7 @@ TEST(ScenarioYaml, DynamicSettingsHaveUnitsAndRanges) {
   EXPECT_EQ(problemsWithRelaxation("method: dynamic, ramp_periods: -1"),
             at + "ramp_periods: '-1' is out of range; must be >= 0");
   EXPECT_EQ(problemsWithRelaxation("method: dynamic, max_periods: 0"),
-            at + "max_periods: '0' is out of range; must be > 0 and <= 1000000");
+            at + "max_periods: '0' is out of range; must be > 0 and <= 10000");
   EXPECT_EQ(problemsWithRelaxation("method: dynamic, max_bend_angle: 120 deg"),
             at + "max_bend_angle: '120 deg' is out of range; must be > 0 rad and <= 2 rad");
   EXPECT_EQ(problemsWithRelaxation("method: dynamic, stopping: rotational_energy, rest_energy: 1 W"),

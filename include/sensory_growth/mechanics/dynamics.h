@@ -25,7 +25,7 @@ struct DynamicsSettings {
   std::optional<double> damping;  ///< rate c at which velocities decay [1/s], >= 0; empty: 2 firstFrequency(rod)
   double time_step = 0.3;      ///< over min(h sqrt(rho / E), R sqrt(rho / G)) [-]; in (0, 1], unstable above about 0.7
   double ramp_periods = 3.0;   ///< time over which forces not yet carried come on, in first periods [-]; >= 0
-  double max_periods = 200.0;  ///< longest time of one relaxation, in first periods [-]; > 0
+  double max_periods = 200.0;  ///< longest time of one relaxation, in first periods [-]; in (0, 10000]
   double max_bend_angle = 1.5707963267948966;  ///< larger turns between neighbours are refused as unresolved [rad]
   bool dilatation = false;  ///< the classical law, which has no potential, instead of the energy's (model.md 1.5)
 
