@@ -49,7 +49,7 @@ void relaxFromStraight(benchmark::State& state, const LoadedRod& start) {
     report = equilibrium.relax(rod.rod, rod.loads);
     if (!report.ok()) return state.SkipWithError("no equilibrium");
   }
-  state.counters["newton_iterations"] = report.iterations;
+  state.counters["iterations"] = report.iterations;
 }
 
 const bool registered = [] {

@@ -22,10 +22,11 @@ Organ::Organ(const OrganScenario& organ, const Scenario& scenario)
   if (method_ == RelaxationMethod::continuous && !(growth_per_second_ > 0.0)) {
     throw std::invalid_argument("growth_per_second must be positive");
   }
+  loads_ = organ.loads;
   if (scenario.weight) loads_.gravity = scenario.gravity;
-  loads_.tip_force = organ.tip_force;
 
   rod_ = rod::straightRod(organ.base, organ.length, organ.elements, organ.section);
+  rod_.base_support = organ.base_support;
   for (rod::Bend& bend : rod_.bends) bend.curvature = bend.rest_curvature = organ.rest_curvature;
   rod_.rebuild();
   report_.divisions = rod::divideLongElements(rod_, organ.longest_element, organ.division);

@@ -203,8 +203,8 @@ OrganScenario readOrgan(YamlReader& in, RelaxationMethod relaxation, IdLines& id
              [&](YamlReader& sensitivities) { readSensitivities(sensitivities, organ.bending.sensitivities); });
   organ.bending.proprioception_length = in.quantity("proprioception_length", dimension::length, atLeast(0));
   in.section("division", kRequired, [&](YamlReader& division) { readDivision(division, relaxation, organ); });
-  organ.tip_force = in.vector("tip_force", dimension::force, organ.tip_force);
-  if (relaxation == RelaxationMethod::kinematics && !organ.tip_force.isZero(0.0)) {
+  organ.loads.tip_force = in.vector("tip_force", dimension::force, organ.loads.tip_force);
+  if (relaxation == RelaxationMethod::kinematics && !organ.loads.tip_force.isZero(0.0)) {
     in.addProblem("tip_force", "has no effect with kinematic relaxation; leave it out");
   }
   organ.rest_curvature = in.vector("rest_curvature", dimension::curvature, organ.rest_curvature);

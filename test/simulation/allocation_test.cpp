@@ -71,7 +71,7 @@ TEST(Allocations, AreCounted) {
 TEST(Allocations, AreNotNeededByASteadyStepInEquilibrium) {
   Simulation simulation = shoot(RelaxationMethod::statics);
   EXPECT_EQ(allocationsOfSteadySteps(simulation), 0);
-  EXPECT_GT(simulation.organs().front().report().newton_iterations, 0);
+  EXPECT_GT(simulation.organs().front().report().iterations, 0);
   EXPECT_EQ(simulation.organs().front().report().divisions, 0u);
 }
 

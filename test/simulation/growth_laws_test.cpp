@@ -192,7 +192,7 @@ TEST(ElasticOrgan, TurnsRigidlyWithBaseGravityAndCues) {
     OrganScenario& organ = s.organs.front();
     organ.base = {turn * Vector3(0.3, 0.1, -0.2), turn * support::alongX()};
     organ.section = support::section(0.05, 1.0, 2.0);
-    organ.tip_force = turn * Vector3(0.1, -0.2, 0.1);
+    organ.loads.tip_force = turn * Vector3(0.1, -0.2, 0.1);
     organ.rest_curvature = {0.2, -0.1, 0.6};
     organ.bending.sensitivities = {0.1, 0.2, 0.1, 0.01};
     organ.bending.proprioception_length = 0.02;

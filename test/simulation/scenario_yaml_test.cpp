@@ -121,7 +121,7 @@ TEST(ScenarioYaml, EveryKeyArrivesInSi) {
   EXPECT_DOUBLE_EQ(organ.bending.proprioception_length, 6e-5);
   EXPECT_DOUBLE_EQ(organ.longest_element, 7e-4);
   EXPECT_EQ(organ.division, rod::DivisionMode::keep_positions);
-  expectNear(organ.tip_force, {1e-3, 0.0, -2e-6});
+  expectNear(organ.loads.tip_force, {1e-3, 0.0, -2e-6});
   expectNear(organ.rest_curvature, {5.0, 20.0, -1.0});
 
   const OrganScenario& flat = s.organs[1];
@@ -180,7 +180,7 @@ TEST(ScenarioYaml, AbsentKeysHaveTheirDocumentedDefaults) {
   EXPECT_DOUBLE_EQ(organ.section.shear_correction, 0.9642857142857143);
   EXPECT_EQ(organ.bending.sensitivities.softening_length, 0.0);
   EXPECT_EQ(organ.division, rod::DivisionMode::keep_strain);
-  EXPECT_TRUE(organ.tip_force.isZero(0.0));
+  EXPECT_TRUE(organ.loads.tip_force.isZero(0.0));
   EXPECT_TRUE(organ.rest_curvature.isZero(0.0));
 
   const Scenario relaxed = loadScenario("../config/wheat_coleoptile.yaml");

@@ -34,7 +34,8 @@ struct OrganScenario {
   double length = 0.0;       ///< rest length at the start [m]
   std::size_t elements = 0;  ///< at the start
   rod::Section section;
-  rod::Vector3 tip_force = rod::Vector3::Zero();       ///< dead load on the apex [N]
+  rod::BaseSupport base_support = rod::BaseSupport::clamped;
+  mechanics::Loads loads;  ///< without gravity, which the scenario gives for all organs
   rod::Vector3 rest_curvature = rod::Vector3::Zero();  ///< of every bend at the start, material components [1/m]
 
   growth::Profile profile = growth::UniformProfile{};
