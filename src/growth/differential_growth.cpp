@@ -33,9 +33,9 @@ double bendRadius(const rod::Rod& rod, std::size_t bend) {
 double drive(const BendingLaw& law, const Environment& environment, const rod::Rod& rod,
              std::vector<Eigen::Vector2d>& f) {
   const CueField field(law.sensitivities, environment);
-  f.resize(rod.size());
+  f.assign(rod.size(), Eigen::Vector2d::Zero());
   double largest_square = 0.0;
-  for (std::size_t j = 0; j < rod.size(); ++j) {
+  for (std::size_t j = rod.firstBend(); j < rod.size(); ++j) {
     const rod::Vector3 section = rod.bendFrame(j).conjugate() * field.at(rod.vertices[j].position);
     f[j] = Eigen::Vector2d(-section.y(), section.x()) / bendRadius(rod, j);
     largest_square = std::max(largest_square, section.head<2>().squaredNorm());
@@ -44,7 +44,7 @@ double drive(const BendingLaw& law, const Environment& environment, const rod::R
 }
 
 void predict(rod::Rod& rod, const BendingLaw& law, const GrowthStrain& strain, const std::vector<Eigen::Vector2d>& f) {
-  for (std::size_t j = 0; j < rod.size(); ++j) {
+  for (std::size_t j = rod.firstBend(); j < rod.size(); ++j) {
     const Straightening step(rod, law, strain, j);
     const Eigen::Vector2d b0 = rod.bends[j].rest_curvature.head<2>();
     addToRestBending(rod.bends[j], step.phi1() * (strain.bends[j] * f[j] - step.G * b0));
@@ -53,7 +53,7 @@ void predict(rod::Rod& rod, const BendingLaw& law, const GrowthStrain& strain, c
 
 void correct(rod::Rod& rod, const BendingLaw& law, const GrowthStrain& strain, const std::vector<Eigen::Vector2d>& f0,
              const std::vector<Eigen::Vector2d>& f1) {
-  for (std::size_t j = 0; j < rod.size(); ++j) {
+  for (std::size_t j = rod.firstBend(); j < rod.size(); ++j) {
     const Straightening step(rod, law, strain, j);
     addToRestBending(rod.bends[j], strain.bends[j] * step.phi2 * (f1[j] - f0[j]));
   }

@@ -28,6 +28,17 @@ RelaxationReport stopped(RelaxationReport report, RelaxationReason reason) {
   return report;
 }
 
+/// sqrt(m / k) of the lightest vertex between all springs and walls [s]; zero if some are rigid, infinite without any.
+double bounceTime(const rod::Rod& rod, const Surroundings& surroundings) {
+  if (surroundings.held_apex) return 0.0;
+  double stiffness = 0.0;
+  for (const Spring& spring : surroundings.springs) stiffness += spring.stiffness;
+  for (const Wall& wall : surroundings.walls) stiffness += wall.stiffness;
+  double lightest = std::numeric_limits<double>::infinity();
+  for (std::size_t v = 1; v <= rod.size(); ++v) lightest = std::min(lightest, rod.vertexMass(v));
+  return std::sqrt(lightest / stiffness);
+}
+
 }  // namespace
 
 struct DynamicRelaxation::Timing {
@@ -35,11 +46,11 @@ struct DynamicRelaxation::Timing {
   double first_period = 0.0;  ///< [s]
   double step = 0.0;          ///< longest [s]
 
-  Timing(const rod::Rod& rod, const DynamicsSettings& settings) {
+  Timing(const rod::Rod& rod, const Surroundings& surroundings, const DynamicsSettings& settings) {
     const double frequency = firstFrequency(rod);
     damping = settings.damping.value_or(2.0 * frequency);
     first_period = 2.0 * M_PI / frequency;
-    step = settings.time_step * waveTime(rod);
+    step = settings.time_step * std::min(waveTime(rod), bounceTime(rod, surroundings));
   }
 };
 
@@ -80,7 +91,7 @@ DynamicRelaxation::DynamicRelaxation(DynamicRelaxation&&) noexcept = default;
 DynamicRelaxation& DynamicRelaxation::operator=(DynamicRelaxation&&) noexcept = default;
 
 RelaxationReport DynamicRelaxation::relax(rod::Rod& rod, const Loads& loads) {
-  const Timing times(rod, settings_);
+  const Timing times(rod, loads.surroundings, settings_);
   motion_->assign(rod, loads, settings_.dilatation);
   motion_->stop();
   RelaxationReport report = reportAtStart(times);
@@ -101,7 +112,7 @@ RelaxationReport DynamicRelaxation::relax(rod::Rod& rod, const Loads& loads) {
 }
 
 RelaxationReport DynamicRelaxation::advance(rod::Rod& rod, const Loads& loads, double duration) {
-  const Timing times(rod, settings_);
+  const Timing times(rod, loads.surroundings, settings_);
   motion_->assign(rod, loads, settings_.dilatation);
   RelaxationReport report = reportAtStart(times);
   if (!report.ok()) return report;
@@ -195,7 +206,13 @@ void DynamicRelaxation::settle(const Timing& times, RelaxationReport& report) {
 bool DynamicRelaxation::isStable(const rod::Rod& rod, const Loads& loads, RelaxationReport& report) const {
   report.lowest_eigenvalue = StaticEquilibrium().lowestEigenvalue(rod, loads);
   const double neutral = std::max(kUnstable * motion_->bendingScale(), 10.0 * report.residual * motion_->coupleScale());
-  return report.lowest_eigenvalue >= -neutral || !loads.tip_couple.isZero(0.0);
+  if (report.lowest_eigenvalue >= -neutral || !loads.tip_couple.isZero(0.0)) return true;
+  if (loads.surroundings.empty()) return false;
+  // Springs and walls may hold what would fall without them.
+  rod::Rod settled = rod;
+  const RelaxationReport supported = StaticEquilibrium().relax(settled, loads);
+  report.lowest_eigenvalue = supported.lowest_eigenvalue;
+  return supported.ok() && supported.branch_switches == 0;
 }
 
 }  // namespace sensory_growth::mechanics

@@ -1,11 +1,13 @@
 #include "sensory_growth/mechanics/energy.h"
 
+#include "surroundings_potential.h"
+
 namespace sensory_growth::mechanics {
 
 using rod::Vector3;
 
 Vector3 bendStiffness(const rod::Rod& rod, std::size_t bend) {
-  if (bend == 0 && rod.base_support != rod::BaseSupport::clamped) return Vector3::Zero();
+  if (bend < rod.firstBend()) return Vector3::Zero();
   const auto compliance = [&](std::size_t e) -> Vector3 {
     return rod.elements[e].section.bendStiffness().cwiseInverse();
   };
@@ -26,6 +28,11 @@ Energy energy(const rod::Rod& rod, const Loads& loads) {
   }
   for (std::size_t v = 0; v <= rod.size(); ++v) {
     sum.load -= vertexForce(rod, loads, v).dot(rod.vertices[v].position);
+  }
+  if (!loads.surroundings.empty()) {
+    SurroundingsPotential potential;
+    potential.assign(rod, loads.surroundings, 0.0);
+    sum.surroundings = potential.evaluate(positionsFromBase(rod));
   }
   return sum;
 }

@@ -86,7 +86,7 @@ void ReducedEnergy::assignElements(const rod::Rod& rod) {
     const Vector3 bend_stiffness = element.section.bendStiffness();
     const Vector3 compliance = 0.5 * length * bend_stiffness.cwiseInverse();  // of half the element
     Vector3 stiffness = (compliance_below + compliance).cwiseInverse();
-    if (e == 0 && rod.base_support != rod::BaseSupport::clamped) stiffness.setZero();
+    if (e < rod.firstBend()) stiffness.setZero();
     const Vector3 stretch_compliance = element.section.stretchCompliance() / length;
 
     setLane(packet.stiffness, lane, stiffness);

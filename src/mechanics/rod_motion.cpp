@@ -8,16 +8,8 @@
 #include "sensory_growth/mechanics/energy.h"
 
 namespace sensory_growth::mechanics {
-namespace {
 
 using rod::Vector3;
-
-/// Springs, walls and a held apex: TO BE CONNECTED to mechanics/surroundings.
-Vector3 surroundingForce(const Surroundings&, std::size_t /*vertex*/, const Vector3& /*position*/) {
-  return Vector3::Zero();
-}
-
-}  // namespace
 
 void RodMotion::Vectors::clear(std::size_t n) {
   for (auto* column : {&x, &y, &z}) column->assign(n, 0.0);
@@ -37,7 +29,13 @@ void RodMotion::Frames::set(std::size_t i, const rod::Quaternion& q) {
 void RodMotion::assign(const rod::Rod& rod, const Loads& loads, bool dilatation) {
   const std::size_t n = rod.size();
   dilatation_ = dilatation;
-  surroundings_ = loads.surroundings;
+  has_surroundings_ = !loads.surroundings.empty();
+  if (has_surroundings_) {
+    surroundings_.assign(rod, loads.surroundings, 0.0);
+    base_ = rod.base.position;
+    from_base_ = positionsFromBase(rod);
+    surroundings_.evaluate(from_base_);
+  }
   share_ = 1.0;
   clear(n);
   makeView(n);
@@ -149,14 +147,21 @@ void RodMotion::drift(double dt) { kernels_->drift(view_, dt); }
 
 void RodMotion::evaluate() {
   dilatation_ ? kernels_->evaluateClassical(view_) : kernels_->evaluate(view_);
-  if (!surroundings_.empty()) addUpForces();
+  if (!has_surroundings_) return;
+  for (std::size_t v = 0; v <= size(); ++v) {
+    from_base_.col(static_cast<Eigen::Index>(v)) = position_.at(v) - base_;
+  }
+  surroundings_.evaluate(from_base_);
+  addUpForces();
 }
 
 void RodMotion::kickAndDrift(double dt) { kernels_->kickAndDrift(view_, kick_, dt); }
 
 void RodMotion::addUpForces() {
   for (std::size_t e = 0; e < size(); ++e) {
-    applied_force_.set(e, share_ * dead_force_.at(e) + surroundingForce(surroundings_, e + 1, position_.at(e + 1)));
+    Vector3 force = share_ * dead_force_.at(e);
+    if (has_surroundings_) force += surroundings_.forces().col(static_cast<Eigen::Index>(e + 1));
+    applied_force_.set(e, force);
   }
 }
 

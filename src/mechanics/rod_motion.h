@@ -11,6 +11,7 @@
 #include "kernels/motion_kernels.h"
 #include "sensory_growth/mechanics/loads.h"
 #include "sensory_growth/rod/rod.h"
+#include "surroundings_potential.h"
 
 namespace sensory_growth::mechanics {
 
@@ -100,7 +101,10 @@ class RodMotion {
   std::vector<double> rest_length_, inverse_length_, inverse_voronoi_, inverse_mass_, inverse_inertia_;
   Vectors stretch_stiffness_, rest_stretch_, bend_stiffness_, rest_curvature_;
   Vectors dead_force_, dead_couple_;
-  Surroundings surroundings_;
+  bool has_surroundings_ = false;
+  SurroundingsPotential surroundings_;
+  rod::Vector3 base_ = rod::Vector3::Zero();
+  Field from_base_;  ///< positions relative to the base
   double couple_scale_ = 0.0;
   double bending_scale_ = 0.0;
   double energy_scale_ = 0.0;

@@ -7,6 +7,7 @@
 
 #include "reduced_energy.h"
 #include "sensory_growth/mechanics/rest_shape.h"
+#include "sensory_growth/mechanics/supported_equilibrium.h"
 
 namespace sensory_growth::mechanics {
 namespace {
@@ -120,16 +121,20 @@ void leaveUnstable(ReducedEnergy& energy, const rod::Rod& start, Evaluation& her
 }  // namespace
 
 struct StaticEquilibrium::Workspace {
+  explicit Workspace(const RelaxationSettings& settings) : supported(settings) {}
+
   ReducedEnergy energy;
+  SupportedEquilibrium supported;
 };
 
 StaticEquilibrium::StaticEquilibrium(const RelaxationSettings& settings)
-    : settings_(settings), workspace_(std::make_unique<Workspace>()) {}
+    : settings_(settings), workspace_(std::make_unique<Workspace>(settings)) {}
 StaticEquilibrium::~StaticEquilibrium() = default;
 StaticEquilibrium::StaticEquilibrium(StaticEquilibrium&&) noexcept = default;
 StaticEquilibrium& StaticEquilibrium::operator=(StaticEquilibrium&&) noexcept = default;
 
 RelaxationReport StaticEquilibrium::relax(rod::Rod& rod, const Loads& loads) {
+  if (!loads.surroundings.empty()) return workspace_->supported.relax(rod, loads);
   RelaxationReport report;
   const auto stop = [&report](RelaxationReason reason) {
     report.reason = reason;
@@ -203,6 +208,8 @@ RelaxationReport StaticEquilibrium::relaxInLoadSteps(rod::Rod& rod, const Loads&
   rod = std::move(trial);
   return report;
 }
+
+const Reactions& StaticEquilibrium::reactions() const { return workspace_->supported.reactions(); }
 
 double StaticEquilibrium::lowestEigenvalue(const rod::Rod& rod, const Loads& loads) {
   workspace_->energy.assign(rod, loads);

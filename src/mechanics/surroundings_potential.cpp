@@ -8,6 +8,14 @@ namespace sensory_growth::mechanics {
 using rod::Matrix3;
 using rod::Vector3;
 
+Field positionsFromBase(const rod::Rod& rod) {
+  Field positions(3, static_cast<Eigen::Index>(rod.vertices.size()));
+  for (Eigen::Index v = 0; v < positions.cols(); ++v) {
+    positions.col(v) = rod.vertices[static_cast<std::size_t>(v)].position - rod.base.position;
+  }
+  return positions;
+}
+
 void SurroundingsPotential::assign(const rod::Rod& rod, const Surroundings& surroundings, double penalty) {
   surroundings_ = surroundings;
   for (Spring& spring : surroundings_.springs) spring.anchor -= rod.base.position;

@@ -14,6 +14,9 @@
 
 namespace sensory_growth::mechanics {
 
+/// Positions of the vertices relative to the base; n + 1 columns.
+Field positionsFromBase(const rod::Rod& rod);
+
 class SurroundingsPotential {
  public:
   /// Forgets multipliers. Rigid surroundings start with `penalty` [N/m].

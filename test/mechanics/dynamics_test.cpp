@@ -681,5 +681,51 @@ TEST(DynamicRelaxation, DoesNotAskForLessThanRoundOff) {
   }
 }
 
+/// A slender cantilever under its weight with a wall half-way down and a spring that pulls its middle sideways.
+Loads softSurroundings() {
+  Loads loads = support::unitGravity();
+  loads.surroundings.walls.push_back({-0.3 * Vector3::UnitZ(), Vector3::UnitZ(), 100.0});
+  loads.surroundings.springs.push_back({0.5, {0.5, 0.4, 0.0}, 3.0});
+  return loads;
+}
+
+rod::Rod thickCantilever() {
+  return rod::straightRod({Vector3::Zero(), support::alongX()}, 1.0, 20, support::section(0.05, 1.0, 8.0));
+}
+
+TEST(DynamicRelaxation, AgreesWithTheStaticsInSurroundings) {
+  const Loads loads = softSurroundings();
+  rod::Rod still = thickCantilever();
+  ASSERT_TRUE(StaticEquilibrium().relax(still, loads).ok());
+  rod::Rod moving = thickCantilever();
+  const RelaxationReport report = DynamicRelaxation().relax(moving, loads);
+  ASSERT_TRUE(report.ok()) << describe(report);
+  EXPECT_LT((moving.vertices.back().position - still.vertices.back().position).norm(), 1e-8);
+  EXPECT_LT((moving.vertices[10].position - still.vertices[10].position).norm(), 1e-8);
+  EXPECT_LT(still.vertices.back().position.z(), -0.3);
+  EXPECT_GT(still.vertices[10].position.y(), 0.01);
+}
+
+TEST(DynamicRelaxation, TakesShorterStepsBetweenStifferWalls) {
+  Loads loads = softSurroundings();
+  rod::Rod soft_rod = thickCantilever();
+  const int soft = DynamicRelaxation().advance(soft_rod, loads, 0.1).iterations;
+  loads.surroundings.walls[0].stiffness = 1e6;
+  rod::Rod rod = thickCantilever();
+  const RelaxationReport report = DynamicRelaxation().advance(rod, loads, 0.1);
+  ASSERT_TRUE(report.ok()) << describe(report);
+  EXPECT_GT(report.iterations, 2 * soft);
+}
+
+TEST(DynamicRelaxation, RefusesRigidSurroundings) {
+  Loads loads = softSurroundings();
+  loads.surroundings.walls[0].stiffness = std::numeric_limits<double>::infinity();
+  rod::Rod rod = thickCantilever();
+  EXPECT_EQ(DynamicRelaxation().relax(rod, loads).reason, RelaxationReason::no_time_step);
+  loads.surroundings = {};
+  loads.surroundings.held_apex = HeldApex{Vector3::UnitX(), std::nullopt};
+  EXPECT_EQ(DynamicRelaxation().relax(rod, loads).reason, RelaxationReason::no_time_step);
+}
+
 }  // namespace
 }  // namespace sensory_growth::mechanics

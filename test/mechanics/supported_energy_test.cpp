@@ -81,7 +81,8 @@ class RandomSurroundings : public testing::TestWithParam<std::tuple<unsigned, ro
     rod.rebuildPositions();
 
     const Surroundings& s = loads_.surroundings;
-    double sum = energy(rod, loads_).total();
+    const Energy without = energy(rod, loads_);
+    double sum = without.bending + without.stretching + without.load;
     const std::size_t tied[] = {2, 2, 3, 6};
     for (std::size_t i = 0; i < s.springs.size(); ++i) {
       sum += 0.5 * s.springs[i].stiffness * (rod.vertices[tied[i]].position - s.springs[i].anchor).squaredNorm();

@@ -6,6 +6,9 @@
 
 #include <gmock/gmock.h>
 
+#include "sensory_growth/mechanics/energy.h"
+#include "support/rods.h"
+
 namespace sensory_growth::mechanics {
 namespace {
 
@@ -46,6 +49,17 @@ TEST(FindFault, NamesFieldValueAndRule) {
   EXPECT_THAT(faultOf(HeldApex{Vector3(kNan, 0.0, 0.0), {}}), Optional(HasSubstr("held_apex.position")));
   EXPECT_THAT(faultOf(HeldApex{Vector3::Zero(), rod::Quaternion(2.0, 0.0, 0.0, 0.0)}),
               Optional(AllOf(HasSubstr("held_apex.frame"), HasSubstr("norm 1"))));
+}
+
+TEST(Energy, CountsWhatYieldsAndNotWhatIsRigid) {
+  const rod::Rod rod =
+      rod::straightRod({{5.0, 0.0, 0.0}, rod::Quaternion::Identity()}, 1.0, 2, support::section(0.05, 1.0, 0.0));
+  Loads loads;
+  loads.surroundings.springs.push_back({0.5, {5.0, 0.2, 0.5}, 3.0});                   // 3 / 2 0.2^2
+  loads.surroundings.walls.push_back({{0.0, 0.0, 0.7}, -rod::Vector3::UnitZ(), 8.0});  // 8 / 2 0.3^2 of the apex
+  loads.surroundings.walls.push_back({{0.0, 0.0, 0.9}, -rod::Vector3::UnitZ()});
+  EXPECT_NEAR(energy(rod, loads).surroundings, 0.06 + 0.36, 1e-15);
+  EXPECT_NEAR(energy(rod, loads).total(), 0.42, 1e-15);
 }
 
 }  // namespace

@@ -25,7 +25,8 @@ struct BendingLaw {
 /// Rest radius at a bend, averaged over its two half cells [m].
 double bendRadius(const rod::Rod& rod, std::size_t bend);
 
-/// f of every bend [1/m per unit growth strain], sensed with the actual frames and positions; size n. Returns the
+/// f of every bend [1/m per unit growth strain], sensed with the actual frames and positions; size n, zero where a bend
+/// has no stiffness. Returns the
 /// largest differential growth in a cross-section [-]: above 1, tissue on one side would have to shrink (model.md 4.1).
 double drive(const BendingLaw& law, const Environment& environment, const rod::Rod& rod,
              std::vector<Eigen::Vector2d>& f);

@@ -25,7 +25,8 @@ enum class RelaxationReason {
   unresolved_bend,     ///< neighbouring elements turned by more than max_bend_angle: the rod needs more elements
   out_of_reach,        ///< rigid walls or a held apex ask for what the rod cannot do
   not_finite,          ///< the input or an iterate holds NaN or infinity
-  no_time_step,        ///< dynamics: elements without mass or stretch would need infinitely short time steps
+  no_time_step,  ///< dynamics: elements without mass or stretch and rigid surroundings would need infinitely short
+                 ///< time steps
 };
 
 struct RelaxationReport {

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Static equilibrium of a clamped rod under dead loads, by Newton's method on rotations (model.md 12).
+/// Static equilibrium of a rod under dead loads, by Newton's method on rotations (model.md 12).
 ///
 /// Under dead loads the strain of every element follows from its frame, so the energy reduces to one of the n frames
 /// alone, whose Hessian is block tridiagonal with 3x3 blocks: an iteration costs O(n) and the inextensible limit is
@@ -22,7 +22,8 @@ class StaticEquilibrium {
   StaticEquilibrium(StaticEquilibrium&&) noexcept;
   StaticEquilibrium& operator=(StaticEquilibrium&&) noexcept;
 
-  /// Moves the rod from where it stands to a stable equilibrium. On failure the rod is left as it was given.
+  /// Moves the rod from where it stands to a stable equilibrium. On failure the rod is left as it was given. A rod in
+  /// surroundings is left to SupportedEquilibrium.
   RelaxationReport relax(rod::Rod& rod, const Loads& loads);
 
   /// For loads that are too much for relax() at once: starts again from the unloaded rod and applies them in steps, as
@@ -30,7 +31,10 @@ class StaticEquilibrium {
   /// one than relax() does from where the rod stands. On failure the rod is left as it was given.
   RelaxationReport relaxInLoadSteps(rod::Rod& rod, const Loads& loads);
 
-  /// Lowest eigenvalue of the Hessian of the rod as it stands [N m].
+  /// What the surroundings do to the rod of the last relax() that converged in them.
+  const Reactions& reactions() const;
+
+  /// Lowest eigenvalue of the Hessian of the rod as it stands, surroundings left aside [N m].
   double lowestEigenvalue(const rod::Rod& rod, const Loads& loads);
 
  private:

@@ -65,6 +65,9 @@ struct Rod {
 
   std::size_t size() const { return elements.size(); }
 
+  /// The first bend that has stiffness: 0 on a clamp, else 1.
+  std::size_t firstBend() const { return base_support == BaseSupport::clamped ? 0 : 1; }
+
   double restLength() const;                      ///< rest arc length of the whole rod [m]
   double length() const;                          ///< current length of the polyline [m]
   double voronoiLength(std::size_t bend) const;   ///< rest length that bend answers for [m]
