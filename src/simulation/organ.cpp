@@ -142,7 +142,7 @@ double Organ::longestPart(const growth::Environment& environment) {
   double tip_speed = 0.0;
   for (std::size_t j = 0; j < rod_.size(); ++j) {
     const double bend_rate = rod::voronoiMean(rod_, j, [this](std::size_t e) { return rates_[e]; });
-    const double straightening = law.proprioception_length / growth::bendRadius(rod_, j);
+    const double straightening = law.proprioception_length * growth::inverseRadius(rod_, j);
     const Eigen::Vector2d slope = drive_[j] - straightening * rod_.bends[j].rest_curvature.head<2>();
     const double turning = rod_.voronoiLength(j) * bend_rate * slope.norm();
     fastest_growth = std::max(fastest_growth, rates_[j]);
