@@ -91,7 +91,8 @@ OrganFault Organ::growAndRelax(double dt, const growth::Environment& environment
   // Growth carries the rod along: left in place, it would be compressed and ring (model.md 11.1).
   rod_.rebuild();
   const bool moves = method_ == RelaxationMethod::continuous;
-  if ((moves ? move(dt / growth_per_second_) : relax()) != OrganFault::none) return OrganFault::relaxation;
+  const auto relax_predicted = [&] { return stepping_.second_order ? relaxInPassing() : relax(); };
+  if ((moves ? move(dt / growth_per_second_) : relax_predicted()) != OrganFault::none) return OrganFault::relaxation;
 
   if (stepping_.second_order) {
     growth::drive(scenario_.bending, environment, rod_, new_drive_);
@@ -117,6 +118,12 @@ OrganFault Organ::relax() {
       return take(mechanics::assumeRestShape(rod_, relaxation_settings_));
   }
   return OrganFault::none;
+}
+
+/// The predicted equilibrium is only sensed: it need not be stable, nor more exact than the step.
+OrganFault Organ::relaxInPassing() {
+  constexpr double kRough = 1e-8;  // scaled residual
+  return method_ == RelaxationMethod::statics ? take(equilibrium_.approach(rod_, loads_, kRough)) : relax();
 }
 
 OrganFault Organ::move(double duration) { return take(dynamics_.advance(rod_, loads_, duration)); }
