@@ -26,8 +26,8 @@ class StaticEquilibrium {
   /// Moves the rod from where it stands to a stable equilibrium. On failure the rod is left as it was given.
   RelaxationReport relax(rod::Rod& rod, const Loads& loads);
 
-  /// The same until the scaled residual is below `rough` [-], without looking for instabilities that Newton's method did
-  /// not meet: for what is only sensed in passing, such as the predicted end of a growth step.
+  /// The same until the scaled residual is below `rough` [-], without looking for instabilities that Newton's method
+  /// did not meet: for what is only sensed in passing, such as the predicted end of a growth step.
   RelaxationReport approach(rod::Rod& rod, const Loads& loads, double rough);
 
   /// For loads that are too much for relax() at once: starts again from the unloaded rod and applies them in steps, as

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Which vector instructions growth and mechanics run on. The library is built for any processor of its architecture and
-/// holds its innermost loops several times; the widest that the processor has is chosen when the program starts.
+/// Which vector instructions growth and mechanics run on. The library is built for any processor of its architecture
+/// and holds its innermost loops several times; the widest that the processor has is chosen when the program starts.
 ///
 /// Results differ between instruction sets by round-off; on one machine they are reproducible bit for bit.
 

@@ -35,7 +35,7 @@ struct OrganScenario {
   std::size_t elements = 0;  ///< at the start
   rod::Section section;
   rod::BaseSupport base_support = rod::BaseSupport::clamped;
-  mechanics::Loads loads;  ///< without gravity, which the scenario gives for all organs
+  mechanics::Loads loads;                              ///< without gravity, which the scenario gives for all organs
   rod::Vector3 rest_curvature = rod::Vector3::Zero();  ///< of every bend at the start, material components [1/m]
 
   growth::Profile profile = growth::UniformProfile{};
