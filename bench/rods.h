@@ -10,6 +10,9 @@
 
 namespace sensory_growth::bench {
 
+/// Scaled residual to which statics and dynamics are compared.
+constexpr double kResidual = 1e-9;
+
 struct LoadedRod {
   rod::Rod rod;
   mechanics::Loads loads;

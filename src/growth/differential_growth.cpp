@@ -7,16 +7,13 @@
 namespace sensory_growth::growth {
 namespace {
 
-/// What one step does to a bend that straightens by proprioception while it grows.
-struct Straightening {
-  double G;     ///< gamma / R times the growth strain [-]
-  double phi2;  ///< of G; the step needs expm1(-G) = -G phi1 and phi1 = 1 - G phi2 besides
+/// G of a bend: how much it straightens by proprioception in a step [-].
+double straightening(const rod::Rod& rod, const BendingLaw& law, const GrowthStrain& strain, std::size_t bend) {
+  return law.proprioception_length * strain.bends[bend] * inverseRadius(rod, bend);
+}
 
-  Straightening(const rod::Rod& rod, const BendingLaw& law, const GrowthStrain& strain, std::size_t bend)
-      : G(law.proprioception_length * strain.bends[bend] / bendRadius(rod, bend)), phi2(growth::phi2(G)) {}
-
-  double phi1() const { return 1.0 - G * phi2; }
-};
+/// Closed forms lose digits to cancellation below this well before the series lose accuracy above it.
+constexpr double kSeries = 1e-2;
 
 /// The actual curvature moves with the rest curvature, so that the elastic strain, and with it the moment, stays.
 void addToRestBending(rod::Bend& bend, const Eigen::Vector2d& increment) {
@@ -26,10 +23,6 @@ void addToRestBending(rod::Bend& bend, const Eigen::Vector2d& increment) {
 
 }  // namespace
 
-double bendRadius(const rod::Rod& rod, std::size_t bend) {
-  return rod::voronoiMean(rod, bend, [&](std::size_t e) { return rod.elements[e].section.radius; });
-}
-
 double drive(const BendingLaw& law, const Environment& environment, const rod::Rod& rod,
              std::vector<Eigen::Vector2d>& f) {
   const CueField field(law.sensitivities, environment);
@@ -37,7 +30,7 @@ double drive(const BendingLaw& law, const Environment& environment, const rod::R
   double largest_square = 0.0;
   for (std::size_t j = rod.firstBend(); j < rod.size(); ++j) {
     const rod::Vector3 section = rod.bendFrame(j).conjugate() * field.at(rod.vertices[j].position);
-    f[j] = Eigen::Vector2d(-section.y(), section.x()) / bendRadius(rod, j);
+    f[j] = Eigen::Vector2d(-section.y(), section.x()) * inverseRadius(rod, j);
     largest_square = std::max(largest_square, section.head<2>().squaredNorm());
   }
   return std::sqrt(largest_square);
@@ -45,25 +38,24 @@ double drive(const BendingLaw& law, const Environment& environment, const rod::R
 
 void predict(rod::Rod& rod, const BendingLaw& law, const GrowthStrain& strain, const std::vector<Eigen::Vector2d>& f) {
   for (std::size_t j = rod.firstBend(); j < rod.size(); ++j) {
-    const Straightening step(rod, law, strain, j);
+    const double G = straightening(rod, law, strain, j);
     const Eigen::Vector2d b0 = rod.bends[j].rest_curvature.head<2>();
-    addToRestBending(rod.bends[j], step.phi1() * (strain.bends[j] * f[j] - step.G * b0));
+    addToRestBending(rod.bends[j], phi1(G) * (strain.bends[j] * f[j] - G * b0));
   }
 }
 
 void correct(rod::Rod& rod, const BendingLaw& law, const GrowthStrain& strain, const std::vector<Eigen::Vector2d>& f0,
              const std::vector<Eigen::Vector2d>& f1) {
   for (std::size_t j = rod.firstBend(); j < rod.size(); ++j) {
-    const Straightening step(rod, law, strain, j);
-    addToRestBending(rod.bends[j], strain.bends[j] * step.phi2 * (f1[j] - f0[j]));
+    const double G = straightening(rod, law, strain, j);
+    addToRestBending(rod.bends[j], strain.bends[j] * phi2(G) * (f1[j] - f0[j]));
   }
 }
 
-double phi1(double G) { return G == 0.0 ? 1.0 : -std::expm1(-G) / G; }
+double phi1(double G) { return std::abs(G) < kSeries ? 1.0 - G * phi2(G) : -std::expm1(-G) / G; }
 
 double phi2(double G) {
-  // The closed form loses digits to cancellation well before its series loses accuracy.
-  if (std::abs(G) < 1e-2) return 0.5 - G / 6.0 + G * G / 24.0 - G * G * G / 120.0 + G * G * G * G / 720.0;
+  if (std::abs(G) < kSeries) return 1.0 / 2 - G * (1.0 / 6 - G * (1.0 / 24 - G * (1.0 / 120 - G * (1.0 / 720))));
   return (std::expm1(-G) + G) / (G * G);
 }
 

@@ -133,7 +133,13 @@ StaticEquilibrium::~StaticEquilibrium() = default;
 StaticEquilibrium::StaticEquilibrium(StaticEquilibrium&&) noexcept = default;
 StaticEquilibrium& StaticEquilibrium::operator=(StaticEquilibrium&&) noexcept = default;
 
-RelaxationReport StaticEquilibrium::relax(rod::Rod& rod, const Loads& loads) {
+RelaxationReport StaticEquilibrium::relax(rod::Rod& rod, const Loads& loads) { return solve(rod, loads, std::nullopt); }
+
+RelaxationReport StaticEquilibrium::approach(rod::Rod& rod, const Loads& loads, double rough) {
+  return solve(rod, loads, rough);
+}
+
+RelaxationReport StaticEquilibrium::solve(rod::Rod& rod, const Loads& loads, std::optional<double> rough) {
   if (!loads.surroundings.empty()) return workspace_->supported.relax(rod, loads);
   RelaxationReport report;
   const auto stop = [&report](RelaxationReason reason) {
@@ -155,6 +161,7 @@ RelaxationReport StaticEquilibrium::relax(rod::Rod& rod, const Loads& loads) {
     report.largest_bend = here.largest_bend;
     if (!std::isfinite(report.residual) || !std::isfinite(here.energy)) return stop(RelaxationReason::not_finite);
 
+    if (rough && report.residual < *rough && newton.shift() == 0.0) break;
     if (report.residual < tolerance) {
       const double neutral = std::max(kUnstable * energy.bendingScale(), 10.0 * here.largest_gradient);
       report.lowest_eigenvalue = stability(energy, factor_is_fresh);

@@ -9,7 +9,7 @@ namespace sensory_growth::rod {
 namespace {
 
 /// From the lower vertex of the element to its upper one [m].
-inline Vector3 chord(const Element& element) {
+[[gnu::always_inline]] inline Vector3 chord(const Element& element) {
   return element.rest_length * (element.frame * (Vector3::UnitZ() + element.strain));
 }
 

@@ -91,7 +91,8 @@ OrganFault Organ::growAndRelax(double dt, const growth::Environment& environment
   // Growth carries the rod along: left in place, it would be compressed and ring (model.md 11.1).
   rod_.rebuild();
   const bool moves = method_ == RelaxationMethod::continuous;
-  if ((moves ? move(dt / growth_per_second_) : relax()) != OrganFault::none) return OrganFault::relaxation;
+  const auto relax_predicted = [&] { return stepping_.second_order ? relaxInPassing() : relax(); };
+  if ((moves ? move(dt / growth_per_second_) : relax_predicted()) != OrganFault::none) return OrganFault::relaxation;
 
   if (stepping_.second_order) {
     growth::drive(scenario_.bending, environment, rod_, new_drive_);
@@ -119,6 +120,12 @@ OrganFault Organ::relax() {
   return OrganFault::none;
 }
 
+/// The predicted equilibrium is only sensed: it need not be stable, nor more exact than the step.
+OrganFault Organ::relaxInPassing() {
+  constexpr double kRough = 1e-8;  // scaled residual
+  return method_ == RelaxationMethod::statics ? take(equilibrium_.approach(rod_, loads_, kRough)) : relax();
+}
+
 OrganFault Organ::move(double duration) { return take(dynamics_.advance(rod_, loads_, duration)); }
 
 OrganFault Organ::take(const mechanics::RelaxationReport& relaxation) {
@@ -142,7 +149,7 @@ double Organ::longestPart(const growth::Environment& environment) {
   double tip_speed = 0.0;
   for (std::size_t j = 0; j < rod_.size(); ++j) {
     const double bend_rate = rod::voronoiMean(rod_, j, [this](std::size_t e) { return rates_[e]; });
-    const double straightening = law.proprioception_length / growth::bendRadius(rod_, j);
+    const double straightening = law.proprioception_length * growth::inverseRadius(rod_, j);
     const Eigen::Vector2d slope = drive_[j] - straightening * rod_.bends[j].rest_curvature.head<2>();
     const double turning = rod_.voronoiLength(j) * bend_rate * slope.norm();
     fastest_growth = std::max(fastest_growth, rates_[j]);

@@ -22,8 +22,14 @@ struct BendingLaw {
   double proprioception_length = 0.0;  ///< gamma [m]; gamma / R straightens the organ per unit growth strain
 };
 
-/// Rest radius at a bend, averaged over its two half cells [m].
-double bendRadius(const rod::Rod& rod, std::size_t bend);
+/// One over the rest radius at a bend, which is the mean over its two half cells [1/m].
+inline double inverseRadius(const rod::Rod& rod, std::size_t bend) {
+  const rod::Element& above = rod.elements[bend];
+  if (bend == 0) return 1.0 / above.section.radius;
+  const rod::Element& below = rod.elements[bend - 1];
+  return (below.rest_length + above.rest_length) /
+         (below.rest_length * below.section.radius + above.rest_length * above.section.radius);
+}
 
 /// f of every bend [1/m per unit growth strain], sensed with the actual frames and positions; size n, zero where a bend
 /// has no stiffness. Returns the

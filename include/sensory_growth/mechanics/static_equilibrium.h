@@ -7,6 +7,7 @@
 /// harmless.
 
 #include <memory>
+#include <optional>
 
 #include "sensory_growth/mechanics/loads.h"
 #include "sensory_growth/mechanics/relaxation.h"
@@ -26,6 +27,10 @@ class StaticEquilibrium {
   /// surroundings is left to SupportedEquilibrium.
   RelaxationReport relax(rod::Rod& rod, const Loads& loads);
 
+  /// The same until the scaled residual is below `rough` [-], without looking for instabilities that Newton's method
+  /// did not meet: for what is only sensed in passing, such as the predicted end of a growth step.
+  RelaxationReport approach(rod::Rod& rod, const Loads& loads, double rough);
+
   /// For loads that are too much for relax() at once: starts again from the unloaded rod and applies them in steps, as
   /// long as the rod can follow and as short as it needs. Where several equilibria are stable, this may find another
   /// one than relax() does from where the rod stands. On failure the rod is left as it was given.
@@ -39,6 +44,8 @@ class StaticEquilibrium {
 
  private:
   struct Workspace;
+  RelaxationReport solve(rod::Rod& rod, const Loads& loads, std::optional<double> rough);
+
   RelaxationSettings settings_;
   std::unique_ptr<Workspace> workspace_;
 };

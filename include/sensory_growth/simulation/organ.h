@@ -66,6 +66,7 @@ class Organ {
   double longestPart(const growth::Environment& environment);
   OrganFault growAndRelax(double dt, const growth::Environment& environment);
   OrganFault relax();
+  OrganFault relaxInPassing();
   OrganFault move(double duration);
   OrganFault take(const mechanics::RelaxationReport& relaxation);
 
