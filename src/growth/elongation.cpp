@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "growth/kernels/profile_kernels.h"
+#include "kernels/profile_kernels.h"
 
 namespace sensory_growth::growth {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "growth/kernels/profile_kernels.h"
+#include "kernels/profile_kernels.h"
 
 namespace sensory_growth::growth {
 namespace {

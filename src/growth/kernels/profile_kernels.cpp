@@ -1,4 +1,4 @@
-#include "growth/kernels/profile_kernels.h"
+#include "profile_kernels.h"
 
 #include "sensory_growth/rod/instruction_set.h"
 

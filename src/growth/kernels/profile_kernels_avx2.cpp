@@ -1,4 +1,4 @@
-#include "growth/kernels/profile_kernels.inc"
+#include "profile_kernels.inc"
 
 namespace sensory_growth::growth::kernels {
 
