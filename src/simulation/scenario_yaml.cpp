@@ -9,6 +9,7 @@
 #include <sstream>
 #include <utility>
 
+#include "loads_yaml.h"
 #include "sensory_growth/simulation/yaml_reader.h"
 
 namespace sensory_growth::simulation {
@@ -31,18 +32,6 @@ std::string readId(YamlReader& in, IdLines& lines) {
     in.addProblem("id", "'" + id + "' is already used on line " + std::to_string(first->second) + "; ids are unique");
   }
   return id;
-}
-
-/// The smallest rotation that takes the world's z axis to d3, then a roll about d3.
-rod::Quaternion frameAlong(const Vector3& d3, double roll) {
-  const Vector3 axis = Vector3::UnitZ().cross(d3);
-  rod::Quaternion tilt = rod::Quaternion::Identity();
-  if (axis.norm() > 0.0) {
-    tilt = Eigen::AngleAxisd(std::atan2(axis.norm(), d3.z()), axis.stableNormalized());
-  } else if (d3.z() < 0.0) {
-    tilt = Eigen::AngleAxisd(kPi, Vector3::UnitX());
-  }
-  return (tilt * Eigen::AngleAxisd(roll, Vector3::UnitZ())).normalized();
 }
 
 Vector3 readGravity(YamlReader& in) {
@@ -119,12 +108,6 @@ void readRelaxation(YamlReader& in, Scenario& scenario) {
   }
 }
 
-void readBase(YamlReader& in, rod::Pose& base) {
-  base.position = in.vector("position", dimension::length);
-  const Vector3 direction = in.direction("direction");
-  base.frame = frameAlong(direction, in.quantity("roll", dimension::angle, anyNumber, 0.0));
-}
-
 void readMaterial(YamlReader& in, RelaxationMethod relaxation, rod::Section& section) {
   section.young_modulus = in.quantity("young_modulus", dimension::modulus, above(0));
   enum class Given { poisson_ratio, shear_modulus };
@@ -193,7 +176,7 @@ void readDivision(YamlReader& in, RelaxationMethod relaxation, OrganScenario& or
 OrganScenario readOrgan(YamlReader& in, RelaxationMethod relaxation, IdLines& ids) {
   OrganScenario organ;
   organ.id = readId(in, ids);
-  in.section("base", kRequired, [&](YamlReader& base) { readBase(base, organ.base); });
+  in.section("base", kRequired, [&](YamlReader& base) { readBase(base, relaxation, organ); });
   organ.length = in.quantity("length", dimension::length, above(0));
   organ.elements = static_cast<std::size_t>(in.count("elements", 1, kMostElements));
   organ.section.radius = in.quantity("radius", dimension::length, above(0));
@@ -203,10 +186,7 @@ OrganScenario readOrgan(YamlReader& in, RelaxationMethod relaxation, IdLines& id
              [&](YamlReader& sensitivities) { readSensitivities(sensitivities, organ.bending.sensitivities); });
   organ.bending.proprioception_length = in.quantity("proprioception_length", dimension::length, atLeast(0));
   in.section("division", kRequired, [&](YamlReader& division) { readDivision(division, relaxation, organ); });
-  organ.loads.tip_force = in.vector("tip_force", dimension::force, organ.loads.tip_force);
-  if (relaxation == RelaxationMethod::kinematics && !organ.loads.tip_force.isZero(0.0)) {
-    in.addProblem("tip_force", "has no effect with kinematic relaxation; leave it out");
-  }
+  readLoads(in, relaxation, organ);
   organ.rest_curvature = in.vector("rest_curvature", dimension::curvature, organ.rest_curvature);
   return organ;
 }

@@ -22,9 +22,11 @@ using Converter = std::unique_ptr<cv_converter, decltype(&cv_free)>;
 
 constexpr const char* kBlanks = " \t";
 
-constexpr std::array kAllDimensions{
-    dimension::length,       dimension::time,    dimension::rate,    dimension::angle, dimension::curvature,
-    dimension::acceleration, dimension::modulus, dimension::density, dimension::force, dimension::energy};
+/// Each with other base units: a stiffness is a force per length, a couple has the units of an energy.
+constexpr std::array kDistinctDimensions{dimension::length,     dimension::time,      dimension::rate,
+                                         dimension::angle,      dimension::curvature, dimension::acceleration,
+                                         dimension::modulus,    dimension::density,   dimension::force,
+                                         dimension::line_force, dimension::energy};
 
 /// Products and quotients of named units with small powers, "1" only as the first numerator. This leaves out what
 /// udunits2 also reads: factors ("mm 2"), origins ("K @ 273"), logarithms and dates.
@@ -74,7 +76,7 @@ std::string baseUnits(const ut_unit* unit) {
 std::string describe(ut_system* system, const ut_unit* unit) {
   const std::string base = baseUnits(unit);
   if (base == "1") return "a number without a dimension";
-  for (const Dimension& dimension : kAllDimensions) {
+  for (const Dimension& dimension : kDistinctDimensions) {
     if (baseUnits(parse(system, dimension.unit).get()) == base) return dimension.name;
   }
   return "in units of " + base;

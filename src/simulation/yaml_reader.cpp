@@ -63,10 +63,19 @@ std::string example(const Dimension& dimension) {
   return std::string(dimension.name) + " such as '" + dimension.example + "'";
 }
 
+/// Infinity if the text is the word for it. Another word is refused: `request` says what is wanted.
+std::optional<double> readInfinity(const std::string& text, const Range& range, const std::string& request) {
+  if (!range.infinity || text.empty() || !isLetter(text[0])) return std::nullopt;
+  if (text != range.infinity) throw std::invalid_argument("is not known; " + request);
+  return kInfinity;
+}
+
+std::string orInfinity(const Range& range) { return range.infinity ? " or '" + std::string(range.infinity) + "'" : ""; }
+
 }  // namespace
 
 bool Range::contains(double value) const {
-  if (std::isinf(value)) return includes_infinity && value > 0.0;
+  if (std::isinf(value)) return infinity && value > 0.0;
   return (includes_low ? value >= low : value > low) && (includes_high ? value <= high : value < high);
 }
 
@@ -81,7 +90,8 @@ std::string Range::describe(const char* unit) const {
   if (std::isfinite(low)) add(includes_low ? ">=" : ">", low);
   if (std::isfinite(high)) add(includes_high ? "<=" : "<", high);
   if (bounds.empty()) return "must be finite";
-  return "must be " + bounds[0] + (bounds.size() > 1 ? " and " + bounds[1] : "") + (includes_infinity ? " or inf" : "");
+  return "must be " + bounds[0] + (bounds.size() > 1 ? " and " + bounds[1] : "") +
+         (infinity ? std::string(" or ") + infinity : "");
 }
 
 YamlReader::YamlReader(const YAML::Node& mapping, std::string path, std::vector<Problem>& problems)
@@ -136,20 +146,23 @@ int YamlReader::count(const std::string& key, int low, int high, std::optional<i
 }
 
 double YamlReader::number(const std::string& key, const Range& range, std::optional<double> fallback) {
-  const std::optional<std::string> text = scalar(key, presence(fallback), "give a number without a unit");
+  const std::string request = "give a number without a unit" + orInfinity(range);
+  const std::optional<std::string> text = scalar(key, presence(fallback), request);
   if (!text) return fallback.value_or(kNan);
   return convert(key, line(key), *text, [&](const std::string& number) {
-    return inRange(range.includes_infinity && number == "inf" ? kInfinity : parseNumber(number), range, "");
+    const std::optional<double> infinity = readInfinity(number, range, request);
+    return infinity ? *infinity : inRange(parseNumber(number), range, "");
   });
 }
 
 double YamlReader::quantity(const std::string& key, const Dimension& dimension, const Range& range,
                             std::optional<double> fallback) {
-  const std::optional<std::string> text = scalar(key, presence(fallback), "give " + example(dimension));
+  const std::string request = "give " + example(dimension) + orInfinity(range);
+  const std::optional<std::string> text = scalar(key, presence(fallback), request);
   if (!text) return fallback.value_or(kNan);
   return convert(key, line(key), *text, [&](const std::string& quantity) {
-    return inRange(range.includes_infinity && quantity == "inf" ? kInfinity : parseQuantity(quantity, dimension), range,
-                   dimension.unit);
+    const std::optional<double> infinity = readInfinity(quantity, range, request);
+    return infinity ? *infinity : inRange(parseQuantity(quantity, dimension), range, dimension.unit);
   });
 }
 

@@ -6,12 +6,14 @@
 #include <fstream>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <ostream>
 #include <random>
 #include <regex>
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -132,6 +134,43 @@ TEST(ScenarioYaml, EveryKeyArrivesInSi) {
   EXPECT_EQ(flat.longest_element, infinity);
 }
 
+TEST(ScenarioYaml, LoadsAndSurroundingsArriveInSi) {
+  const Scenario s = loadScenario(good + "loads.yaml");
+  ASSERT_EQ(s.organs.size(), 2u);
+  EXPECT_EQ(s.organs[0].base_support, rod::BaseSupport::hinged);
+  const mechanics::Loads& loads = s.organs[0].loads;
+  expectNear(loads.tip_force, {0.0, 1e-6, 0.0});
+  expectNear(loads.line_force, {2e-3, 0.0, -3e-3});
+  expectNear(loads.tip_couple, {0.0, 4e-6, 5e-8});
+
+  ASSERT_EQ(loads.surroundings.springs.size(), 2u);
+  const mechanics::Spring& spring = loads.surroundings.springs[0];
+  EXPECT_EQ(spring.label, 0.25);
+  expectNear(spring.anchor, {0.01, 0.0, 0.002});
+  EXPECT_DOUBLE_EQ(spring.stiffness, 3.0);
+  EXPECT_EQ(loads.surroundings.springs[1].label, 1.0);
+  EXPECT_DOUBLE_EQ(loads.surroundings.springs[1].stiffness, 4.0);
+
+  ASSERT_EQ(loads.surroundings.walls.size(), 2u);
+  const mechanics::Wall& floor = loads.surroundings.walls[0];
+  expectNear(floor.point, {0.0, 0.0, -0.001});
+  expectNear(floor.normal, {0.0, 0.0, 1.0});
+  EXPECT_EQ(floor.stiffness, infinity);
+  expectNear(loads.surroundings.walls[1].normal, {-0.6, 0.0, 0.8});
+  EXPECT_DOUBLE_EQ(loads.surroundings.walls[1].stiffness, 6000.0);
+
+  const std::optional<mechanics::HeldApex>& apex = loads.surroundings.held_apex;
+  ASSERT_TRUE(apex && apex->frame);
+  expectNear(apex->position, {0.035, 0.0, 0.001});
+  EXPECT_LT((apex->frame->toRotationMatrix() - directors({0, 0, -1}, {-1, 0, 0}, {0, 1, 0})).norm(), 1e-14);
+
+  EXPECT_EQ(s.organs[1].base_support, rod::BaseSupport::frozen_first_element);
+  const std::optional<mechanics::HeldApex>& free_to_turn = s.organs[1].loads.surroundings.held_apex;
+  ASSERT_TRUE(free_to_turn);
+  expectNear(free_to_turn->position, {0.0, 1.0, 0.031});
+  EXPECT_FALSE(free_to_turn->frame);
+}
+
 void expectStimulus(const TimedStimulus& actual, double time, StimulusOperation operation, StimulusKind kind,
                     const std::string& id, const Vector3& vector, double strength) {
   SCOPED_TRACE(id);
@@ -180,7 +219,11 @@ TEST(ScenarioYaml, AbsentKeysHaveTheirDocumentedDefaults) {
   EXPECT_DOUBLE_EQ(organ.section.shear_correction, 0.9642857142857143);
   EXPECT_EQ(organ.bending.sensitivities.softening_length, 0.0);
   EXPECT_EQ(organ.division, rod::DivisionMode::keep_strain);
+  EXPECT_EQ(organ.base_support, rod::BaseSupport::clamped);
   EXPECT_TRUE(organ.loads.tip_force.isZero(0.0));
+  EXPECT_TRUE(organ.loads.line_force.isZero(0.0));
+  EXPECT_TRUE(organ.loads.tip_couple.isZero(0.0));
+  EXPECT_TRUE(organ.loads.surroundings.empty());
   EXPECT_TRUE(organ.rest_curvature.isZero(0.0));
 
   const Scenario relaxed = loadScenario("../config/wheat_coleoptile.yaml");
@@ -233,6 +276,13 @@ organs:
     proprioception_length: 0.06 mm
     division: {longest_element: 1 mm, mode: keep_strain}
     tip_force: [0 N, 0 N, 0 N]
+    line_force: [0 N/m, 0 N/m, 0 N/m]
+    tip_couple: [0 N m, 0 N m, 0 N m]
+    springs:
+      - {label: 0.5, anchor: [5 mm, 0 m, 15 mm], stiffness: 2 N/m}
+    walls:
+      - {point: [0 m, 0 m, -1 cm], normal: [0, 0, 1], stiffness: rigid}
+    held_apex: {position: [0 m, 0 m, 29 mm], direction: [0, 0, 1], roll: 10 deg}
 stimuli:
   point_sources:
     - {id: lamp, position: [10 cm, 0 m, 10 cm], strength: 1}
@@ -291,6 +341,38 @@ INSTANTIATE_TEST_SUITE_P(
         Spoilt{"[0 N, 0 N, 0 N]", "[0 N, 0, 0 N]", "organs[0].tip_force[1]", "^'0' has no unit; give a force"}));
 
 INSTANTIATE_TEST_SUITE_P(
+    Loads, SpoiltScenario,
+    testing::Values(
+        Spoilt{"roll: 0 deg", "support: pinned", "organs[0].base.support",
+               "^'pinned' is not known; give 'clamped', 'frozen_first_element' or 'hinged'$"},
+        Spoilt{"[0 N/m, 0 N/m, 0 N/m]", "[0 N/m, 0 N, 0 N/m]", "organs[0].line_force[1]",
+               "^'0 N' is a force; give a force per length such as '5 mN/m'$"},
+        Spoilt{"[0 N m, 0 N m, 0 N m]", "[0 N m, 0 N/m, 0 N m]", "organs[0].tip_couple[1]",
+               "^'0 N/m' is a force per length; give a couple such as '3 uN.m'$"},
+        Spoilt{"[0 N m, 0 N m, 0 N m]", "3 N m", "organs[0].tip_couple", "^is '3 N m'; give a sequence of three"},
+        Spoilt{"label: 0.5", "labl: 0.5, label: 0.5", "organs[0].springs[0].labl", "did you mean 'label'\\?$"},
+        Spoilt{"label: 0.5, ", "", "organs[0].springs[0].label", "^is missing; give a number without a unit$"},
+        Spoilt{"label: 0.5", "label: 0", "organs[0].springs[0].label", "^'0' is out of range; must be > 0 and <= 1$"},
+        Spoilt{"label: 0.5", "label: 1.1", "organs[0].springs[0].label", "must be > 0 and <= 1$"},
+        Spoilt{"stiffness: 2 N/m", "stiffness: 0 N/m", "organs[0].springs[0].stiffness", "must be > 0 N/m$"},
+        Spoilt{"stiffness: 2 N/m", "stiffness: rigid", "organs[0].springs[0].stiffness",
+               "^'rigid' does not begin with .* a stiffness such as '20 N/m'$"},
+        Spoilt{"anchor: [5 mm, 0 m, 15 mm], ", "", "organs[0].springs[0].anchor", "^is missing; give a sequence of"},
+        Spoilt{"stiffness: rigid", "stiffness: stiff", "organs[0].walls[0].stiffness",
+               "^'stiff' is not known; give a stiffness such as '20 N/m' or 'rigid'$"},
+        Spoilt{"stiffness: rigid", "stiffness: inf", "organs[0].walls[0].stiffness", "^'inf' is not known; give a sti"},
+        Spoilt{"stiffness: rigid", "stiffness: -1 N/m", "organs[0].walls[0].stiffness", "must be > 0 N/m or rigid$"},
+        Spoilt{", stiffness: rigid", "", "organs[0].walls[0].stiffness", "^is missing; give .* or 'rigid'$"},
+        Spoilt{"normal: [0, 0, 1]", "normal: [0, 0, 0]", "organs[0].walls[0].normal", "zero length"},
+        Spoilt{"normal: [0, 0, 1]", "normal: [0, 0, -1]", "organs[0].walls[0].normal", "^points away from the base"},
+        Spoilt{"[0 m, 0 m, 29 mm], direction: [0, 0, 1], ", "[0 m, 0 m, 29 mm], ", "organs[0].held_apex.roll",
+               "^needs 'direction'"},
+        Spoilt{"held_apex: {position: [0 m, 0 m, 29 mm],", "held_apex: {", "organs[0].held_apex.position",
+               "^is missing; give a sequence of three"},
+        Spoilt{"held_apex: {position: [0 m, 0 m, 29 mm], direction: [0, 0, 1], roll: 10 deg}", "held_apex: true",
+               "organs[0].held_apex", "^is 'true'; give a mapping"}));
+
+INSTANTIATE_TEST_SUITE_P(
     Ranges, SpoiltScenario,
     testing::Values(
         Spoilt{"radius: 0.8 mm", "radius: -0.8 mm", "organs[0].radius", "^'-0.8 mm' is out of range; must be > 0 m$"},
@@ -325,7 +407,7 @@ INSTANTIATE_TEST_SUITE_P(
         Spoilt{"at: 2 h", "at: -2 h", "protocol[0].at", "must be >= 0 s$"},
         Spoilt{"9.81 m/s^2", "-9.81 m/s^2", "gravity.acceleration", "must be >= 0 m/s\\^2$"},
         Spoilt{"direction: [0, 0, -1]", "direction: [0, 0, 0.0]", "gravity.direction", "zero length"},
-        Spoilt{"direction: [0, 0, 1]", "direction: [0, 0, -0]", "organs[0].base.direction", "zero length"},
+        Spoilt{"direction: [0, 0, 1], roll: 0 deg", "direction: [0, 0, -0]", "organs[0].base.direction", "zero length"},
         Spoilt{"towards: [1, 0, 0]", "towards: [0, 0, 0]", "stimuli.light_directions[0].towards", "zero length"},
         Spoilt{"towards: [0, 1, 0]", "towards: [0, inf, 0]", "protocol[0].change.light_direction.towards[1]",
                "not a finite number"}));
@@ -394,7 +476,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Spoilt{"poisson_ratio: 0.5", "poisson_ratio: 0.5, shear_modulus: 3 MPa", "organs[0].material",
                "^needs exactly one of 'poisson_ratio' and 'shear_modulus'$"},
-        Spoilt{"at: 3 h", "at: 1 h", "protocol[1].at", "^'1 h' is earlier than the entry before it, on line 27;"},
+        Spoilt{"at: 3 h", "at: 1 h", "protocol[1].at", "^'1 h' is earlier than the entry before it, on line 34;"},
         Spoilt{"remove: {point_source: {id: lamp}}", "add: {}, remove: {}", "protocol[1]", "needs exactly one of"},
         Spoilt{"remove: {point_source: {id: lamp}}", "remove: {}", "protocol[1].remove",
                "^needs exactly one of 'point_source' and 'light_direction'$"},
@@ -410,7 +492,7 @@ TEST(ScenarioYaml, IdsAreUniqueWithinTheirKind) {
   const std::string lamp = "    - {id: lamp, position: [10 cm, 0 m, 10 cm], strength: 1}\n";
   twice.insert(twice.find(lamp), lamp);
   EXPECT_EQ(list(problemsOf(twice)),
-            "test:24: stimuli.point_sources[1].id: 'lamp' is already used on line 23; ids are unique");
+            "test:31: stimuli.point_sources[1].id: 'lamp' is already used on line 30; ids are unique");
 
   std::string same_id_of_another_kind = valid;
   same_id_of_another_kind.replace(same_id_of_another_kind.find("id: lamp, pos"), 8, "id: sun");
@@ -419,7 +501,7 @@ TEST(ScenarioYaml, IdsAreUniqueWithinTheirKind) {
   const std::size_t begin = valid.find("  - id: first"), end = valid.find("stimuli:");
   std::string two_organs = valid;
   two_organs.insert(end, valid.substr(begin, end - begin));
-  EXPECT_EQ(list(problemsOf(two_organs)), "test:21: organs[1].id: 'first' is already used on line 10; ids are unique");
+  EXPECT_EQ(list(problemsOf(two_organs)), "test:28: organs[1].id: 'first' is already used on line 10; ids are unique");
 }
 
 TEST(ScenarioYaml, DuplicateKeyNamesBothLines) {
@@ -428,21 +510,44 @@ TEST(ScenarioYaml, DuplicateKeyNamesBothLines) {
   EXPECT_EQ(list(problemsOf(twice)), "test:9: duration: is given twice, first on line 4");
 }
 
+/// The valid scenario with each first piece replaced by the second.
+std::string changed(const std::vector<std::pair<std::string, std::string>>& changes) {
+  std::string yaml = valid;
+  for (const auto& [piece, replacement] : changes) yaml.replace(yaml.find(piece), piece.size(), replacement);
+  return yaml;
+}
+
 TEST(ScenarioYaml, KinematicRelaxationRefusesWhatItWouldIgnore) {
-  std::string kinematic = valid;
-  const auto replace = [&](const std::string& piece, const std::string& replacement) {
-    kinematic.replace(kinematic.find(piece), piece.size(), replacement);
-  };
-  replace("method: static", "method: kinematic");
-  replace("keep_strain", "keep_positions");
-  replace("[0 N, 0 N, 0 N]", "[1 N, 0 N, 0 N]");
-  EXPECT_EQ(list(problemsOf(kinematic)),
-            "test:3: weight: 'true' has no effect with kinematic relaxation; give false\n"
-            "test:8: relaxation.max_iterations: is an unknown key; known here are 'method'\n"
-            "test:19: organs[0].division.mode: 'keep_positions' leaves a strain defect that kinematic relaxation never "
-            "removes; "
-            "give 'keep_strain'\n"
-            "test:20: organs[0].tip_force: has no effect with kinematic relaxation; leave it out");
+  const std::string no_effect = "has no effect with kinematic relaxation; leave it out\n";
+  EXPECT_EQ(
+      list(problemsOf(changed({{"method: static", "method: kinematic"},
+                               {"roll: 0 deg", "support: hinged"},
+                               {"keep_strain", "keep_positions"},
+                               {"[0 N, 0 N, 0 N]", "[1 N, 0 N, 0 N]"},
+                               {"[0 N/m,", "[1 N/m,"},
+                               {"[0 N m,", "[1 N m,"}}))) +
+          "\n",
+      "test:3: weight: 'true' has no effect with kinematic relaxation; give false\n"
+      "test:8: relaxation.max_iterations: is an unknown key; known here are 'method'\n"
+      "test:11: organs[0].base.support: 'hinged' needs forces that turn the organ, and kinematic relaxation knows "
+      "none; give 'clamped'\n"
+      "test:19: organs[0].division.mode: 'keep_positions' leaves a strain defect that kinematic relaxation never "
+      "removes; give 'keep_strain'\n"
+      "test:20: organs[0].tip_force: " +
+          no_effect + "test:21: organs[0].line_force: " + no_effect +  //
+          "test:22: organs[0].tip_couple: " + no_effect + "test:24: organs[0].springs: " + no_effect +
+          "test:26: organs[0].walls: " + no_effect + "test:27: organs[0].held_apex: " + no_effect);
+}
+
+TEST(ScenarioYaml, MotionInTimeRefusesWhatIsInfinitelyStiff) {
+  for (const std::string method : {"method: dynamic", "method: continuous, growth_per_second: 1 h"}) {
+    EXPECT_EQ(
+        list(problemsOf(changed({{"method: static, max_iterations: 100", method}}))),
+        "test:26: organs[0].walls[0].stiffness: 'rigid' needs static relaxation: no time step is short enough for "
+        "it; give a stiffness\n"
+        "test:27: organs[0].held_apex: needs static relaxation: no time step is short enough for it; tie the apex "
+        "with a spring");
+  }
 }
 
 TEST(ScenarioYaml, EveryKeyOfDynamicRelaxationIsRead) {
@@ -477,18 +582,20 @@ TEST(ScenarioYaml, EveryKeyOfContinuousRelaxationIsRead) {
   EXPECT_EQ(dynamics.tolerance, 1e-9);
 }
 
-/// Problems of the valid scenario with another relaxation section, on line 8.
+const std::string held_apex = "    held_apex: {position: [0 m, 0 m, 29 mm], direction: [0, 0, 1], roll: 10 deg}\n";
+
+/// Problems of the valid scenario with another relaxation section, on line 8, and without rigid surroundings.
 std::string problemsWithRelaxation(const std::string& keys, const std::string& material = "") {
-  std::string yaml = valid;
-  const std::string piece = "method: static, max_iterations: 100", density = "density: 1000 kg/m^3";
-  yaml.replace(yaml.find(piece), piece.size(), keys);
-  yaml.insert(yaml.find(density) + density.size(), material);
-  return list(problemsOf(yaml));
+  const std::string density = "density: 1000 kg/m^3";
+  return list(problemsOf(changed({{"method: static, max_iterations: 100", keys},
+                                  {density, density + material},
+                                  {"stiffness: rigid", "stiffness: 6 N/m"},
+                                  {held_apex, ""}})));
 }
 
 TEST(ScenarioYaml, EachRelaxationMethodKnowsItsOwnKeys) {
   const std::string at = "test:8: relaxation.";
-  EXPECT_EQ(problemsWithRelaxation("method: dynamic"), "no problem");
+  EXPECT_EQ(problemsWithRelaxation("method: dynamic"), "no problem");  // springs and a wall that gives way included
   EXPECT_EQ(problemsWithRelaxation("method: continuous, growth_per_second: 10 min"), "no problem");
   EXPECT_EQ(problemsWithRelaxation("method: continuous"),
             at + "growth_per_second: is missing; give a time such as '10 min'");
@@ -732,12 +839,12 @@ std::string mutate(std::string text, std::mt19937& random) {
 }
 
 TEST(ScenarioYaml, SpoiltTextIsReadOrRefusedButNothingElse) {
-  const std::string original = contentOf(good + "all_keys.yaml");
+  const std::string originals[] = {contentOf(good + "all_keys.yaml"), contentOf(good + "loads.yaml")};
   std::mt19937 random(20);
   int refused = 0;
   constexpr int trials = 1500;
   for (int i = 0; i < trials; ++i) {
-    const std::string text = mutate(original, random);
+    const std::string text = mutate(originals[i % 2], random);
     try {
       const Scenario scenario = parseScenario(text, "test");
       EXPECT_GT(scenario.stepping.step, 0.0) << text;
@@ -746,6 +853,7 @@ TEST(ScenarioYaml, SpoiltTextIsReadOrRefusedButNothingElse) {
         EXPECT_TRUE(std::isfinite(organ.length) && organ.length > 0.0) << text;
         EXPECT_TRUE(organ.base.position.allFinite() && organ.base.frame.coeffs().allFinite()) << text;
         EXPECT_GT(organ.section.shear_modulus, 0.0) << text;
+        EXPECT_EQ(mechanics::findFault(organ.loads.surroundings), std::nullopt) << text;
       }
     } catch (const ScenarioError& error) {
       ++refused;

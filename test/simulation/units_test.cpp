@@ -53,7 +53,10 @@ INSTANTIATE_TEST_SUITE_P(
                     Given{"1 GPa", dimension::modulus, 1e9}, Given{"3 N/mm^2", dimension::modulus, 3e6},
                     Given{"5 kPa", dimension::modulus, 5e3}, Given{"1000 kg/m^3", dimension::density, 1000.0},
                     Given{"1.1 g/cm^3", dimension::density, 1100.0}, Given{"2 mN", dimension::force, 2e-3},
-                    Given{"-3 uN", dimension::force, -3e-6}));
+                    Given{"-3 uN", dimension::force, -3e-6}, Given{"2 uN/mm", dimension::line_force, 2e-3},
+                    Given{"4 mN/mm", dimension::stiffness, 4.0}, Given{"2 kg/s^2", dimension::stiffness, 2.0},
+                    Given{"3 mN mm", dimension::couple, 3e-6}, Given{"-3 uN.m", dimension::couple, -3e-6},
+                    Given{"1 N*m", dimension::couple, 1.0}));
 
 struct Bad {
   const char* text;
@@ -98,6 +101,9 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"3 %", dimension::angle, "a number without a dimension; give an angle"},
         Bad{"9.81 m/s", dimension::acceleration, "in units of m.s-1; give an acceleration such as '9.81 m/s^2'"},
         Bad{"10 N", dimension::modulus, "is a force; give an elastic modulus such as '10 MPa'"},
+        Bad{"10 N", dimension::stiffness, "is a force; give a stiffness such as '20 N/m'"},
+        Bad{"10 N/m", dimension::couple, "is a force per length; give a couple such as '3 uN.m'"},
+        Bad{"10 Pa", dimension::line_force, "is an elastic modulus; give a force per length such as '5 mN/m'"},
         Bad{"1 g", dimension::acceleration, "in units of kg"}));
 
 TEST(Quantity, VeryLongUnitIsRefused) {

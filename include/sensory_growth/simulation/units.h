@@ -24,6 +24,9 @@ inline constexpr Dimension acceleration{"an acceleration", "m/s^2", "9.81 m/s^2"
 inline constexpr Dimension modulus{"an elastic modulus", "Pa", "10 MPa"};
 inline constexpr Dimension density{"a density", "kg/m^3", "1000 kg/m^3"};
 inline constexpr Dimension force{"a force", "N", "2 mN"};
+inline constexpr Dimension line_force{"a force per length", "N/m", "5 mN/m"};
+inline constexpr Dimension stiffness{"a stiffness", "N/m", "20 N/m"};
+inline constexpr Dimension couple{"a couple", "N.m", "3 uN.m"};
 inline constexpr Dimension energy{"an energy", "J", "1e-12 J"};
 
 }  // namespace dimension
