@@ -32,6 +32,8 @@ const std_msgs::ColorRGBA kPlainOrgan = color(0.35F, 0.65F, 0.25F);
 const std_msgs::ColorRGBA kTip = color(0.85F, 0.90F, 0.40F);
 const std_msgs::ColorRGBA kAttracting = color(1.0F, 0.75F, 0.10F);
 const std_msgs::ColorRGBA kRepelling = color(0.35F, 0.45F, 0.95F);
+const std_msgs::ColorRGBA kWall = color(0.60F, 0.75F, 0.90F, 0.25F);
+const std_msgs::ColorRGBA kTie = color(0.75F, 0.60F, 0.40F);
 const std_msgs::ColorRGBA kLabel = color(0.95F, 0.95F, 0.95F);
 
 /// What is drawn at one vertex.
@@ -178,6 +180,51 @@ void addOrgan(const OrganSnapshot& organ, const Snapshot& snapshot, const Marker
   array.markers.push_back(std::move(tip));
 }
 
+/// The plane as far as the organ can reach.
+Marker makeWall(Marker marker, const mechanics::Wall& wall, const rod::Rod& rod) {
+  const double side = 2.2 * rod.restLength();
+  const double thickness = 1e-3 * side;
+  const double offset = (wall.point - rod.base.position).dot(wall.normal) - 0.5 * thickness;
+  marker.pose = toPose(
+      {rod.base.position + offset * wall.normal, rod::Quaternion::FromTwoVectors(rod::Vector3::UnitZ(), wall.normal)});
+  setScale(marker, side, side, thickness);
+  marker.color = kWall;
+  return marker;
+}
+
+Marker makeSpring(Marker marker, const mechanics::Spring& spring, const rod::Rod& rod, double width) {
+  marker.points = {toPoint(rod.vertices[mechanics::tiedVertex(rod, spring)].position), toPoint(spring.anchor)};
+  marker.scale.x = width;
+  marker.color = kTie;
+  return marker;
+}
+
+Marker makeHeldApex(Marker marker, const mechanics::HeldApex& apex, double size) {
+  marker.pose = toPose({apex.position, apex.frame.value_or(rod::Quaternion::Identity())});
+  setScale(marker, size, size, 0.2 * size);
+  marker.color = kTie;
+  return marker;
+}
+
+void addSurroundings(const OrganSnapshot& organ, const Snapshot& snapshot, const MarkerSettings& settings,
+                     MarkerArray& array) {
+  const mechanics::Surroundings& surroundings = organ.surroundings;
+  const auto begin = [&](const char* layer, std::size_t i, int type) {
+    return makeMarker(snapshot, settings, organ.id + "/" + layer, static_cast<int>(i), type);
+  };
+  for (std::size_t i = 0; i < surroundings.walls.size(); ++i) {
+    array.markers.push_back(makeWall(begin(names::kWallMarker, i, Marker::CUBE), surroundings.walls[i], organ.rod));
+  }
+  for (std::size_t i = 0; i < surroundings.springs.size(); ++i) {
+    array.markers.push_back(makeSpring(begin(names::kSpringMarker, i, Marker::LINE_STRIP), surroundings.springs[i],
+                                       organ.rod, 0.01 * settings.scene_size));
+  }
+  if (surroundings.held_apex) {
+    array.markers.push_back(makeHeldApex(begin(names::kHeldApexMarker, 0, Marker::CUBE), *surroundings.held_apex,
+                                         0.05 * settings.scene_size));
+  }
+}
+
 const std_msgs::ColorRGBA& colorOf(double strength) { return strength < 0.0 ? kRepelling : kAttracting; }
 
 Marker makeLabel(const Snapshot& snapshot, const MarkerSettings& settings, const std::string& ns,
@@ -239,7 +286,10 @@ MarkerSettings makeMarkerSettings(const Parameters& parameters, const Snapshot& 
 
 MarkerArray buildMarkers(const Snapshot& snapshot, const MarkerSettings& settings) {
   MarkerArray array;
-  for (const OrganSnapshot& organ : snapshot.organs) addOrgan(organ, snapshot, settings, array);
+  for (const OrganSnapshot& organ : snapshot.organs) {
+    addOrgan(organ, snapshot, settings, array);
+    addSurroundings(organ, snapshot, settings, array);
+  }
   for (const growth::PointSource& source : snapshot.environment.point_sources) {
     addLamp(source, snapshot, settings, array);
   }

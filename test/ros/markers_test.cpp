@@ -98,6 +98,36 @@ TEST(Markers, LampAndLightAreWhereTheyShine) {
   EXPECT_GT(arrow.points[1].z, 3.04);               // and stops before the tip
 }
 
+/// The organ of lit(), which stands on (1, 2, 3) and is 0.04 m long, with everything that can hold it.
+std::shared_ptr<Snapshot> held() {
+  auto snapshot = lit();
+  mechanics::Surroundings& surroundings = snapshot->organs[0].surroundings;
+  surroundings.walls = {{{0.0, 0.0, 2.99}, {0.0, 0.0, 1.0}, 5.0}, {{1.01, 9.0, 9.0}, {-1.0, 0.0, 0.0}}};
+  surroundings.springs = {{0.5, {1.02, 2.0, 3.02}, 7.0}};
+  surroundings.held_apex = mechanics::HeldApex{{1.0, 2.0, 3.04}, {}};
+  return snapshot;
+}
+
+TEST(Markers, WallsSpringsAndHeldApexAreWhereTheyHold) {
+  const MarkerArray array = buildMarkers(*held(), settingsOf(MarkerShape::tube));
+  EXPECT_THAT(testing::lint(array), IsEmpty());
+
+  const Marker& floor = find(array, "stem/wall", 0);
+  EXPECT_NEAR(floor.pose.position.x, 1.0, 1e-12);  // below the base, wherever the point of the plane is
+  EXPECT_NEAR(floor.pose.position.z + 0.5 * floor.scale.z, 2.99, 1e-12);
+  EXPECT_GT(floor.scale.x, 0.08);  // the organ may lie down either way
+  EXPECT_LT(floor.color.a, 0.5F);
+  const Marker& side = find(array, "stem/wall", 1);
+  EXPECT_NEAR(side.pose.position.x - 0.5 * side.scale.z, 1.01, 1e-12);
+  EXPECT_NEAR(std::abs(side.pose.orientation.y), std::sqrt(0.5), 1e-12);  // a quarter turn about y
+
+  const Marker& tie = find(array, "stem/spring");
+  ASSERT_THAT(tie.points, SizeIs(2));
+  EXPECT_NEAR(tie.points[0].z, 3.02, 1e-12);
+  EXPECT_NEAR(tie.points[1].x, 1.02, 1e-12);
+  EXPECT_NEAR(find(array, "stem/held_apex").pose.position.z, 3.04, 1e-12);
+}
+
 TEST(MarkerStream, DeletesWhatIsGoneAndStartsAfreshAfterAReset) {
   MarkerStream stream(settingsOf(MarkerShape::tube));
   auto snapshot = lit();

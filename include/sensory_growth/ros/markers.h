@@ -1,7 +1,7 @@
 #pragma once
 
-/// Organs, lamps and lights as rviz markers. Building is a pure function of the snapshot; only what was drawn before is
-/// remembered, so that it can be deleted.
+/// Organs, what holds them, lamps and lights as rviz markers. Building is a pure function of the snapshot; only what
+/// was drawn before is remembered, so that it can be deleted.
 
 #include <visualization_msgs/MarkerArray.h>
 
@@ -22,7 +22,7 @@ struct MarkerSettings {
   double color_limit = 0.0;    ///< value of the brightest colour [SI]; 0: the largest of the organ at present
   double radius_scale = 1.0;   ///< of organs [-]
   double lamp_diameter = 0.0;  ///< [m]
-  double scene_size = 0.0;     ///< where light arrows begin, from the tips [m]
+  double scene_size = 0.0;     ///< of the longest organ at the start: light arrows begin so far from the tips [m]
 };
 
 /// Settings that fit the organs of `first`, the state at the start.

@@ -50,6 +50,9 @@ inline constexpr char kStationFrame[] = "station_";  // station_1 is nearest to 
 // Marker namespaces: <organ>/<layer>, and <layer>/<id> for stimuli.
 inline constexpr char kBodyMarker[] = "body";
 inline constexpr char kTipMarker[] = "tip";
+inline constexpr char kWallMarker[] = "wall";
+inline constexpr char kSpringMarker[] = "spring";
+inline constexpr char kHeldApexMarker[] = "held_apex";
 inline constexpr char kLampMarker[] = "point_source";
 inline constexpr char kLightMarker[] = "light_direction";
 

@@ -11,6 +11,7 @@
 
 #include "sensory_growth/growth/cues.h"
 #include "sensory_growth/mechanics/energy.h"
+#include "sensory_growth/mechanics/surroundings.h"
 #include "sensory_growth/rod/rod.h"
 #include "sensory_growth/simulation/simulation.h"
 
@@ -21,6 +22,7 @@ struct OrganSnapshot {
   rod::Rod rod;
   std::vector<double> growth_rates;  ///< of the elements [1/s]
   mechanics::Energy energy;
+  mechanics::Surroundings surroundings;
   simulation::OrganReport report;  ///< of the step that led here
 };
 
