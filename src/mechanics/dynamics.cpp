@@ -204,9 +204,10 @@ void DynamicRelaxation::settle(const Timing& times, RelaxationReport& report) {
 /// Whether the equilibrium found is stable. Motion follows what the imperfections of a rod give; one without any rests
 /// even where it could fall. Under a body couple, which has no potential, a negative eigenvalue proves nothing.
 bool DynamicRelaxation::isStable(const rod::Rod& rod, const Loads& loads, RelaxationReport& report) const {
-  report.lowest_eigenvalue = StaticEquilibrium().lowestEigenvalue(rod, loads);
+  const double lowest = StaticEquilibrium().lowestEigenvalue(rod, loads);
+  report.lowest_eigenvalue = lowest;
   const double neutral = std::max(kUnstable * motion_->bendingScale(), 10.0 * report.residual * motion_->coupleScale());
-  if (report.lowest_eigenvalue >= -neutral || !loads.tip_couple.isZero(0.0)) return true;
+  if (lowest >= -neutral || !loads.tip_couple.isZero(0.0)) return true;
   if (loads.surroundings.empty()) return false;
   // Springs and walls may hold what would fall without them.
   rod::Rod settled = rod;

@@ -162,6 +162,11 @@ ReducedEnergy::Evaluation ReducedEnergy::tryStep(double scale) {
   return kernels_->evaluate(view_, trial_.view());
 }
 
+void ReducedEnergy::takeStep() {
+  kernels_->move(view_, frames_.view(), step_.view(), 1.0, trial_.view());
+  accept();
+}
+
 void ReducedEnergy::writeTo(rod::Rod& rod) {
   // The step and the trial are done with: their memory serves as scratch.
   strain_.resize(size());

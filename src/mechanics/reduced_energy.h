@@ -51,6 +51,9 @@ class ReducedEnergy {
   Evaluation tryStep(double scale);
   void accept() { frames_.swap(trial_); }
 
+  /// Takes the whole step without looking where it leads.
+  void takeStep();
+
   /// Writes frames, strains and positions of the current frames to the rod that was assigned.
   void writeTo(rod::Rod& rod);
 

@@ -64,8 +64,9 @@ std::string describe(const RelaxationReport& report) {
   } else {
     out << " Newton iterations";
   }
-  out << ", scaled residual " << report.residual << ", lowest eigenvalue " << report.lowest_eigenvalue << " N m, "
-      << report.branch_switches << " branch switches, "
+  out << ", scaled residual " << report.residual << ", ";
+  if (report.lowest_eigenvalue) out << "lowest eigenvalue " << *report.lowest_eigenvalue << " N m, ";
+  out << report.branch_switches << " branch switches, "
       << (report.load_steps > 0 ? std::to_string(report.load_steps) + " load steps, " : "")
       << "largest turn between elements " << report.largest_bend << " rad" << advice(report);
   return out.str();

@@ -103,7 +103,7 @@ void leaveAlong(ReducedEnergy& energy, const TurnField& direction, Evaluation& h
 
 /// Lowest eigenvalue, with the factor of the last step if that is fresh, and again with one of its own if it comes
 /// close to zero.
-double stability(ReducedEnergy& energy, bool factor_is_fresh) {
+double measureStability(ReducedEnergy& energy, bool factor_is_fresh) {
   if (factor_is_fresh) {
     const double lowest = energy.lowestEigenvalue(0.0);
     if (lowest > 1e-3 * energy.bendingScale() / static_cast<double>(energy.size())) return lowest;
@@ -133,13 +133,21 @@ StaticEquilibrium::~StaticEquilibrium() = default;
 StaticEquilibrium::StaticEquilibrium(StaticEquilibrium&&) noexcept = default;
 StaticEquilibrium& StaticEquilibrium::operator=(StaticEquilibrium&&) noexcept = default;
 
-RelaxationReport StaticEquilibrium::relax(rod::Rod& rod, const Loads& loads) { return solve(rod, loads, std::nullopt); }
-
-RelaxationReport StaticEquilibrium::approach(rod::Rod& rod, const Loads& loads, double rough) {
-  return solve(rod, loads, rough);
+RelaxationReport StaticEquilibrium::approach(rod::Rod& rod, const Loads& loads) {
+  constexpr double kClose = 0.1;  // rad
+  if (!loads.surroundings.empty() || !hasLengths(rod)) return relax(rod, loads, Stability::decided);
+  ReducedEnergy& energy = workspace_->energy;
+  energy.assign(rod, loads);
+  RelaxationReport report;
+  for (; report.iterations < 2; ++report.iterations) {
+    if (!energy.findStep(0.0) || !(energy.largestTurn() < kClose)) return relax(rod, loads, Stability::decided);
+    energy.takeStep();
+  }
+  energy.writeTo(rod);
+  return report;
 }
 
-RelaxationReport StaticEquilibrium::solve(rod::Rod& rod, const Loads& loads, std::optional<double> rough) {
+RelaxationReport StaticEquilibrium::relax(rod::Rod& rod, const Loads& loads, Stability stability) {
   if (!loads.surroundings.empty()) return workspace_->supported.relax(rod, loads);
   RelaxationReport report;
   const auto stop = [&report](RelaxationReason reason) {
@@ -161,13 +169,14 @@ RelaxationReport StaticEquilibrium::solve(rod::Rod& rod, const Loads& loads, std
     report.largest_bend = here.largest_bend;
     if (!std::isfinite(report.residual) || !std::isfinite(here.energy)) return stop(RelaxationReason::not_finite);
 
-    if (rough && report.residual < *rough && newton.shift() == 0.0) break;
     if (report.residual < tolerance) {
+      if (stability == Stability::decided && (factor_is_fresh || energy.findStep(0.0))) break;
       const double neutral = std::max(kUnstable * energy.bendingScale(), 10.0 * here.largest_gradient);
-      report.lowest_eigenvalue = stability(energy, factor_is_fresh);
+      const double lowest = measureStability(energy, factor_is_fresh);
+      report.lowest_eigenvalue = lowest;
       // What is left of the gradient shows up as an eigenvalue of the free azimuth of a buckled column; it is no
       // instability. Under a body couple, which has no potential, a negative eigenvalue proves nothing.
-      if (report.lowest_eigenvalue >= -neutral || !loads.tip_couple.isZero(0.0)) break;
+      if (lowest >= -neutral || !loads.tip_couple.isZero(0.0)) break;
       if (report.branch_switches == settings_.max_branch_switches) return stop(RelaxationReason::unstable);
       ++report.branch_switches;
       leaveUnstable(energy, rod, here);
@@ -220,7 +229,7 @@ const Reactions& StaticEquilibrium::reactions() const { return workspace_->suppo
 
 double StaticEquilibrium::lowestEigenvalue(const rod::Rod& rod, const Loads& loads) {
   workspace_->energy.assign(rod, loads);
-  return stability(workspace_->energy, false);
+  return measureStability(workspace_->energy, false);
 }
 
 }  // namespace sensory_growth::mechanics

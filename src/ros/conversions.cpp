@@ -129,7 +129,7 @@ Relaxation toMessage(const simulation::OrganReport& report) {
   message.iterations = static_cast<std::uint32_t>(report.relaxation.iterations);
   message.step_iterations = static_cast<std::uint32_t>(report.iterations);
   message.residual = report.relaxation.residual;
-  message.lowest_eigenvalue = report.relaxation.lowest_eigenvalue;
+  message.lowest_eigenvalue = report.relaxation.lowest_eigenvalue.value_or(0.0);
   message.largest_bend = report.relaxation.largest_bend;
   message.branch_switches = static_cast<std::uint32_t>(report.branch_switches);
   message.substeps = static_cast<std::uint32_t>(report.substeps);

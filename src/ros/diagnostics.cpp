@@ -55,7 +55,7 @@ void reportRelaxation(const OrganSnapshot& organ, DiagnosticStatusWrapper& statu
   status.add("iterations of the step", report.iterations);
   status.add("residual", relaxation.residual);
   status.add("kinetic energy [J]", relaxation.kinetic_energy);
-  status.add("lowest eigenvalue [N m]", relaxation.lowest_eigenvalue);
+  if (relaxation.lowest_eigenvalue) status.add("lowest eigenvalue [N m]", *relaxation.lowest_eigenvalue);
   status.add("branch switches", report.branch_switches);
   status.add("largest turn between elements [rad]", relaxation.largest_bend);
   status.add("largest differential growth", report.largest_differential_growth);

@@ -13,6 +13,7 @@ SnapshotPtr takeSnapshot(const simulation::Simulation& simulation, const ros::Ti
   for (const simulation::Organ& organ : simulation.organs()) {
     snapshot->organs.push_back({organ.scenario().id, organ.rod(), organ.growthRates(), organ.energy(),
                                 organ.scenario().loads.surroundings, organ.report()});
+    snapshot->organs.back().report.relaxation.lowest_eigenvalue = organ.lowestEigenvalue();
   }
   return snapshot;
 }

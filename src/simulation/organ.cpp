@@ -24,6 +24,9 @@ Organ::Organ(const OrganScenario& organ, const Scenario& scenario)
   }
   loads_ = organ.loads;
   if (scenario.weight) loads_.gravity = scenario.gravity;
+  if (const auto fault = mechanics::findFault(loads_.surroundings)) {
+    throw std::invalid_argument("organ '" + organ.id + "': " + *fault);
+  }
 
   rod_ = rod::straightRod(organ.base, organ.length, organ.elements, organ.section);
   rod_.base_support = organ.base_support;
@@ -31,6 +34,9 @@ Organ::Organ(const OrganScenario& organ, const Scenario& scenario)
   rod_.rebuild();
   report_.divisions = rod::divideLongElements(rod_, organ.longest_element, organ.division);
   report_.fault = relax();
+  if (!report_.ok() && method_ == RelaxationMethod::statics) {
+    report_.fault = take(equilibrium_.relaxInLoadSteps(rod_, loads_));
+  }
   if (!report_.ok()) {
     throw std::invalid_argument("organ '" + organ.id + "' has no equilibrium to start from: " + describe(report_));
   }
@@ -110,7 +116,7 @@ OrganFault Organ::growAndRelax(double dt, const growth::Environment& environment
 OrganFault Organ::relax() {
   switch (method_) {
     case RelaxationMethod::statics:
-      return take(equilibrium_.relax(rod_, loads_));
+      return take(equilibrium_.relax(rod_, loads_, mechanics::Stability::decided));
     case RelaxationMethod::dynamics:
     case RelaxationMethod::continuous:
       return take(dynamics_.relax(rod_, loads_));
@@ -122,8 +128,13 @@ OrganFault Organ::relax() {
 
 /// The predicted equilibrium is only sensed: it need not be stable, nor more exact than the step.
 OrganFault Organ::relaxInPassing() {
-  constexpr double kRough = 1e-8;  // scaled residual
-  return method_ == RelaxationMethod::statics ? take(equilibrium_.approach(rod_, loads_, kRough)) : relax();
+  return method_ == RelaxationMethod::statics ? take(equilibrium_.approach(rod_, loads_)) : relax();
+}
+
+std::optional<double> Organ::lowestEigenvalue() const {
+  const bool was_only_decided = method_ == RelaxationMethod::statics && loads_.surroundings.empty();
+  if (!was_only_decided) return report_.relaxation.lowest_eigenvalue;
+  return mechanics::StaticEquilibrium(relaxation_settings_).lowestEigenvalue(rod_, loads_);
 }
 
 OrganFault Organ::move(double duration) { return take(dynamics_.advance(rod_, loads_, duration)); }

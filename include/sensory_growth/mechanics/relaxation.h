@@ -2,6 +2,7 @@
 
 /// What every way of relaxing takes and reports.
 
+#include <optional>
 #include <string>
 
 namespace sensory_growth::mechanics {
@@ -31,15 +32,16 @@ enum class RelaxationReason {
 
 struct RelaxationReport {
   RelaxationReason reason = RelaxationReason::converged;
-  int iterations = 0;              ///< Newton iterations, all branches together, or time steps
-  double residual = 0.0;           ///< scaled [-]
-  double lowest_eigenvalue = 0.0;  ///< of the Hessian at the end [N m]; close to zero for a free azimuth
-  int branch_switches = 0;         ///< unstable equilibria left along their eigenvector
-  int load_steps = 0;              ///< parts in which the loads were applied; 0 if they were applied at once
-  double largest_bend = 0.0;       ///< largest turn between neighbouring elements [rad]
-  bool in_time = false;            ///< the rod moved in time: iterations are time steps
-  double time = 0.0;               ///< for how long it moved [s]
-  double kinetic_energy = 0.0;     ///< at the end [J]
+  int iterations = 0;     ///< Newton iterations, all branches together, or time steps
+  double residual = 0.0;  ///< scaled [-]
+  /// Of the Hessian at the end [N m], if it was measured; close to zero for a free azimuth.
+  std::optional<double> lowest_eigenvalue;
+  int branch_switches = 0;      ///< unstable equilibria left along their eigenvector
+  int load_steps = 0;           ///< parts in which the loads were applied; 0 if they were applied at once
+  double largest_bend = 0.0;    ///< largest turn between neighbouring elements [rad]
+  bool in_time = false;         ///< the rod moved in time: iterations are time steps
+  double time = 0.0;            ///< for how long it moved [s]
+  double kinetic_energy = 0.0;  ///< at the end [J]
 
   bool ok() const { return reason == RelaxationReason::converged; }
 };

@@ -7,13 +7,16 @@
 /// harmless.
 
 #include <memory>
-#include <optional>
 
 #include "sensory_growth/mechanics/loads.h"
 #include "sensory_growth/mechanics/relaxation.h"
 #include "sensory_growth/rod/rod.h"
 
 namespace sensory_growth::mechanics {
+
+/// What to find out about the stability of an equilibrium. Whether it is stable is always decided, mostly by a Cholesky
+/// factor; the lowest eigenvalue takes about as long as two more iterations.
+enum class Stability { decided, measured };
 
 /// Owns the work space of its iterations.
 class StaticEquilibrium {
@@ -25,11 +28,12 @@ class StaticEquilibrium {
 
   /// Moves the rod from where it stands to a stable equilibrium. On failure the rod is left as it was given. A rod in
   /// surroundings is left to SupportedEquilibrium.
-  RelaxationReport relax(rod::Rod& rod, const Loads& loads);
+  RelaxationReport relax(rod::Rod& rod, const Loads& loads, Stability stability = Stability::measured);
 
-  /// The same until the scaled residual is below `rough` [-], without looking for instabilities that Newton's method
-  /// did not meet: for what is only sensed in passing, such as the predicted end of a growth step.
-  RelaxationReport approach(rod::Rod& rod, const Loads& loads, double rough);
+  /// Two iterations from a rod that is already close, such as one that has grown a little: their error is of fourth
+  /// order in the distance. Neither residual nor stability are looked at. A rod that is not close, or is unstable, is
+  /// relaxed instead.
+  RelaxationReport approach(rod::Rod& rod, const Loads& loads);
 
   /// For loads that are too much for relax() at once: starts again from the unloaded rod and applies them in steps, as
   /// long as the rod can follow and as short as it needs. Where several equilibria are stable, this may find another
@@ -44,8 +48,6 @@ class StaticEquilibrium {
 
  private:
   struct Workspace;
-  RelaxationReport solve(rod::Rod& rod, const Loads& loads, std::optional<double> rough);
-
   RelaxationSettings settings_;
   std::unique_ptr<Workspace> workspace_;
 };

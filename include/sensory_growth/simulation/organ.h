@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -57,6 +58,10 @@ class Organ {
   const OrganScenario& scenario() const { return scenario_; }
   const rod::Rod& rod() const { return rod_; }
   const OrganReport& report() const { return report_; }
+  /// Of the Hessian of the organ in equilibrium [N m], measured on demand; nothing for organs that are not relaxed to
+  /// one.
+  std::optional<double> lowestEigenvalue() const;
+
   mechanics::Energy energy() const { return mechanics::energy(rod_, loads_); }
 
   /// Relative elongation rate of every element as the organ stands [1/s].
