@@ -84,10 +84,13 @@ void elongate(rod::Rod& rod, const GrowthStrain& strain) {
     const double old_length = length;
     length = strain.lengths[e];
     rod::Bend& bend = rod.bends[e];
-    if (e < rod.firstBend()) bend.curvature *= old_length / length;  // where a hinge stands does not change
-    const double diluted = bend.rest_curvature.z() * ((old_below + old_length) / (new_below + length));
-    bend.curvature.z() += diluted - bend.rest_curvature.z();
-    bend.rest_curvature.z() = diluted;
+    if (e < rod.firstBend()) {
+      bend.curvature *= old_length / length;  // where a hinge stands does not change
+    } else {
+      const double diluted = bend.rest_curvature.z() * ((old_below + old_length) / (new_below + length));
+      bend.curvature.z() += diluted - bend.rest_curvature.z();
+      bend.rest_curvature.z() = diluted;
+    }
     old_below = old_length;
     new_below = length;
   }

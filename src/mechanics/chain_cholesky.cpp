@@ -121,6 +121,7 @@ ChainEigenpair lowestEigenpair(const ChainHessian& hessian, const Field& start, 
     factor.solve(hessian, vector, no_gaps, pair.response);
     Field& rotations = pair.response.rotations;
     const double norm = rotations.norm();
+    if (norm == 0.0) break;  // nothing may turn
     // (H + shift) rotations = vector, so this is the Rayleigh quotient of the rotations.
     const double value = vector.cwiseProduct(rotations).sum() / (norm * norm) - shift;
     const double change = std::abs(value - pair.value);

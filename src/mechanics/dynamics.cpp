@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "rod_motion.h"
@@ -112,6 +114,9 @@ RelaxationReport DynamicRelaxation::relax(rod::Rod& rod, const Loads& loads) {
 }
 
 RelaxationReport DynamicRelaxation::advance(rod::Rod& rod, const Loads& loads, double duration) {
+  if (!(duration >= 0.0)) {
+    throw std::invalid_argument("the duration is " + std::to_string(duration) + " s; it must not be negative");
+  }
   const Timing times(rod, loads.surroundings, settings_);
   motion_->assign(rod, loads, settings_.dilatation);
   RelaxationReport report = reportAtStart(times);
@@ -202,12 +207,12 @@ void DynamicRelaxation::settle(const Timing& times, RelaxationReport& report) {
 }
 
 /// Whether the equilibrium found is stable. Motion follows what the imperfections of a rod give; one without any rests
-/// even where it could fall. Under a body couple, which has no potential, a negative eigenvalue proves nothing.
+/// even where it could fall. The part of a body couple that has no potential may lower the eigenvalue by half of it.
 bool DynamicRelaxation::isStable(const rod::Rod& rod, const Loads& loads, RelaxationReport& report) const {
   const double lowest = StaticEquilibrium().lowestEigenvalue(rod, loads);
   report.lowest_eigenvalue = lowest;
-  const double neutral = std::max(kUnstable * motion_->bendingScale(), 10.0 * report.residual * motion_->coupleScale());
-  if (lowest >= -neutral || !loads.tip_couple.isZero(0.0)) return true;
+  const double left = std::max(kUnstable * motion_->bendingScale(), 10.0 * report.residual * motion_->coupleScale());
+  if (lowest >= -(left + 0.5 * loads.tip_couple.norm())) return true;
   if (loads.surroundings.empty()) return false;
   // Springs and walls may hold what would fall without them.
   rod::Rod settled = rod;

@@ -108,6 +108,7 @@ void ReducedEnergy::assignElements(const rod::Rod& rod) {
   trial_.set(-1, rod.base.frame);
   if (view_.first == 1) frames_.set(0, rod.base.frame);
   bending_scale_ = stiffest / rest_length_;
+  stiffness_scale_ = std::max(stiffness_scale_, bending_scale_);
 }
 
 void ReducedEnergy::assignForces(const rod::Rod& rod, const Loads& loads) {
@@ -253,8 +254,8 @@ double ReducedEnergy::lowestEigenvalue(double shift) {
       if (closer < shift || shift == 0.0) {
         if (findStep(closer)) {
           shift = closer;
-        } else {
-          findStep(shift);
+        } else if (!findStep(shift)) {
+          break;
         }
       }
     }

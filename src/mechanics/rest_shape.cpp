@@ -8,7 +8,7 @@ namespace sensory_growth::mechanics {
 RelaxationReport assumeRestShape(rod::Rod& rod, const RelaxationSettings& settings) {
   RelaxationReport report;
   for (std::size_t j = 0; j < rod.size(); ++j) {
-    const double turn = rod.voronoiLength(j) * rod.bends[j].rest_curvature.norm();
+    const double turn = j < rod.firstBend() ? 0.0 : rod.voronoiLength(j) * rod.bends[j].rest_curvature.norm();
     if (!std::isfinite(turn) || !rod.elements[j].rest_strain.allFinite()) {
       report.reason = RelaxationReason::not_finite;
       return report;
@@ -19,7 +19,7 @@ RelaxationReport assumeRestShape(rod::Rod& rod, const RelaxationSettings& settin
     report.reason = RelaxationReason::unresolved_bend;
     return report;
   }
-  for (rod::Bend& bend : rod.bends) bend.curvature = bend.rest_curvature;
+  for (std::size_t j = rod.firstBend(); j < rod.size(); ++j) rod.bends[j].curvature = rod.bends[j].rest_curvature;
   for (rod::Element& element : rod.elements) element.strain = element.rest_strain;
   rod.rebuild();
   return report;

@@ -37,6 +37,7 @@ void RodMotion::assign(const rod::Rod& rod, const Loads& loads, bool dilatation)
     surroundings_.evaluate(from_base_);
   }
   share_ = 1.0;
+  first_bend_ = rod.firstBend();
   clear(n);
   makeView(n);
 
@@ -73,7 +74,10 @@ void RodMotion::assign(const rod::Rod& rod, const Loads& loads, bool dilatation)
     frame_.set(e + 1, frame);
   }
   dead_couple_.set(n - 1, loads.tip_couple);
-  if (rod.base_support == rod::BaseSupport::frozen_first_element) inverse_inertia_[0] = 0.0;
+  if (rod.base_support == rod::BaseSupport::frozen_first_element) {
+    inverse_inertia_[0] = 0.0;
+    frame_.set(1, frame_.at(0));
+  }
 
   const double weight_couple = total_force * rest_length_sum_;
   bending_scale_ = stiffest / rest_length_sum_;
@@ -230,7 +234,7 @@ double RodMotion::rotationalEnergy() const {
 
 double RodMotion::largestBend() const {
   double largest = 0.0;
-  for (std::size_t e = 0; e < size(); ++e) {
+  for (std::size_t e = first_bend_; e < size(); ++e) {
     largest = std::max(largest, rod::log(frame_.at(e).conjugate() * frame_.at(e + 1)).norm());
   }
   return largest;

@@ -110,6 +110,7 @@ class RodMotion {
   double energy_scale_ = 0.0;
   double rest_length_sum_ = 0.0;
   bool dilatation_ = false;
+  std::size_t first_bend_ = 0;
 
   Vectors position_, velocity_, angular_velocity_;
   Frames frame_;

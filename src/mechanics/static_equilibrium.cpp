@@ -31,9 +31,13 @@ double norm(const TurnField& field) {
   return std::sqrt(sum);
 }
 
-/// Factors the Hessian, shifted if it is not positive. Returns the shift that served [N m].
+/// Factors the Hessian, shifted if it is not positive. Returns the shift that served [N m], infinity if none did.
 double factorShifted(ReducedEnergy& energy, double shift, double first) {
-  while (!energy.findStep(shift) && std::isfinite(shift)) shift = shift > 0.0 ? 4.0 * shift : first;
+  const double largest = 1e9 * energy.stiffnessScale();
+  while (!energy.findStep(shift)) {
+    shift = shift > 0.0 ? 4.0 * shift : first;
+    if (!(shift < largest)) return std::numeric_limits<double>::infinity();
+  }
   return shift;
 }
 
@@ -44,7 +48,10 @@ class ShiftedNewton {
  public:
   /// False if no finite shift serves.
   bool findStep(ReducedEnergy& energy, double residual) {
-    const double first = std::max(1e-6 * std::min(1.0, 1e5 * residual), 1e-16) * energy.stiffnessScale();
+    // The lowest eigenvalues fall with the square of the number of elements, compared with the largest.
+    const double slowest = std::min(1.0, 100.0 / static_cast<double>(energy.size()));
+    const double vanishing = 1e-6 * slowest * slowest * std::min(1.0, 1e5 * residual);
+    const double first = std::max(vanishing, 1e-16) * energy.stiffnessScale();
     used_ = factorShifted(energy, next_, first);
     next_ = used_ > 4.0 * first ? used_ / 4.0 : 0.0;
     return std::isfinite(used_);
@@ -108,7 +115,10 @@ double measureStability(ReducedEnergy& energy, bool factor_is_fresh) {
     const double lowest = energy.lowestEigenvalue(0.0);
     if (lowest > 1e-3 * energy.bendingScale() / static_cast<double>(energy.size())) return lowest;
   }
-  return energy.lowestEigenvalue(factorShifted(energy, 0.0, 1e-12 * energy.stiffnessScale()));
+  // A free turn makes the Hessian singular; without a shift, round-off would decide whether it has a factor.
+  const double first = 1e-12 * energy.stiffnessScale();
+  const double shift = factorShifted(energy, first, first);
+  return std::isfinite(shift) ? energy.lowestEigenvalue(shift) : -energy.stiffnessScale();
 }
 
 /// Leaves an unstable equilibrium in the direction of the last increment, or of a fixed one if there was none.
@@ -160,7 +170,8 @@ RelaxationReport StaticEquilibrium::relax(rod::Rod& rod, const Loads& loads, Sta
   energy.assign(rod, loads);
   // Forces of all elements beyond add up in each, so round-off grows with their number.
   const double round_off = 10.0 * static_cast<double>(rod.size()) * std::numeric_limits<double>::epsilon();
-  const double tolerance = std::max(settings_.tolerance, round_off);
+  const double stiffest = std::numeric_limits<double>::epsilon() * energy.stiffnessScale() / energy.coupleScale();
+  const double tolerance = std::max({settings_.tolerance, round_off, stiffest});
   ShiftedNewton newton;
   bool factor_is_fresh = false;
   Evaluation here = energy.evaluate();
@@ -171,12 +182,13 @@ RelaxationReport StaticEquilibrium::relax(rod::Rod& rod, const Loads& loads, Sta
 
     if (report.residual < tolerance) {
       if (stability == Stability::decided && (factor_is_fresh || energy.findStep(0.0))) break;
-      const double neutral = std::max(kUnstable * energy.bendingScale(), 10.0 * here.largest_gradient);
+      // What is left of the gradient shows up as an eigenvalue of the free azimuth of a buckled column; it is no
+      // instability. Nor is what the part of a body couple that has no potential, of norm |M| / 2, may add.
+      const double left = std::max(kUnstable * energy.bendingScale(), 10.0 * here.largest_gradient);
+      const double neutral = left + 0.5 * loads.tip_couple.norm();
       const double lowest = measureStability(energy, factor_is_fresh);
       report.lowest_eigenvalue = lowest;
-      // What is left of the gradient shows up as an eigenvalue of the free azimuth of a buckled column; it is no
-      // instability. Under a body couple, which has no potential, a negative eigenvalue proves nothing.
-      if (lowest >= -neutral || !loads.tip_couple.isZero(0.0)) break;
+      if (lowest >= -neutral) break;
       if (report.branch_switches == settings_.max_branch_switches) return stop(RelaxationReason::unstable);
       ++report.branch_switches;
       leaveUnstable(energy, rod, here);
@@ -189,7 +201,8 @@ RelaxationReport StaticEquilibrium::relax(rod::Rod& rod, const Loads& loads, Sta
     if (!newton.findStep(energy, report.residual)) return stop(RelaxationReason::not_finite);
     const double taken = searchLine(energy, settings_.max_rotation, here);
     if (taken == 0.0) return stop(RelaxationReason::line_search_failed);
-    factor_is_fresh = newton.shift() == 0.0 && taken * energy.largestTurn() < kSmallStep;
+    factor_is_fresh = rod.base_support != rod::BaseSupport::hinged && newton.shift() == 0.0 &&
+                      taken * energy.largestTurn() < kSmallStep;
   }
   if (report.largest_bend > settings_.max_bend_angle) return stop(RelaxationReason::unresolved_bend);
 

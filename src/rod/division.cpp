@@ -39,9 +39,15 @@ Daughters daughters(const Element& parent, const Vector3& lower_curvature, const
 
 /// The curvature that an element continues into at its lower end. A hinge bends nothing: the element then is taken to
 /// go on as it does above.
-const Bend& bendBelow(const Rod& rod, std::size_t e) {
-  const bool on_hinge = e == 0 && rod.base_support == BaseSupport::hinged;
-  return rod.bends[on_hinge ? std::min<std::size_t>(1, rod.size() - 1) : e];
+Bend bendBelow(const Rod& rod, std::size_t e) {
+  if (e > 0 || rod.base_support != BaseSupport::hinged) return rod.bends[e];
+  return rod.size() > 1 ? rod.bends[1] : Bend();
+}
+
+/// The same at its upper end; beyond the last element nothing changes.
+Bend bendAbove(const Rod& rod, std::size_t e) {
+  if (e + 1 < rod.size()) return rod.bends[e + 1];
+  return e >= rod.firstBend() ? rod.bends[e] : Bend();
 }
 
 /// Of a frozen element 0 both daughters keep the base frame at the lower end: the old turn is shared by two bends.
@@ -73,8 +79,8 @@ std::size_t divide(Rod& rod, const std::vector<bool>& selected, DivisionMode mod
     const Element& element = rod.elements[e];
     divided.bends.push_back(rod.bends[e]);
     if (selected[e]) {
-      const Bend& below = bendBelow(rod, e);
-      const Bend& above = rod.bends[std::min(e + 1, rod.size() - 1)];
+      const Bend below = bendBelow(rod, e);
+      const Bend above = bendAbove(rod, e);
       Daughters d = daughters(element, below.curvature, above.curvature, mode);
       Bend between;
       between.curvature = dividedCurvature(element.rest_length, below.curvature, above.curvature);

@@ -45,12 +45,18 @@ double Rod::vertexLength(std::size_t vertex) const {
 }
 
 Quaternion Rod::bendFrame(std::size_t bend) const {
+  if (bend < firstBend()) return elements[bend].frame;
   return halfWay(bend > 0 ? elements[bend - 1].frame : base.frame, elements[bend].frame);
+}
+
+Vector3 Rod::curvatureTowards(std::size_t bend) const {
+  return bend < firstBend() ? Vector3(Vector3::Zero()) : bends[bend].curvature;
 }
 
 Pose Rod::apex() const {
   const Element& last = elements.back();
-  return {vertices.back().position, (last.frame * exp(0.5 * last.rest_length * bends.back().curvature)).normalized()};
+  return {vertices.back().position,
+          (last.frame * exp(0.5 * last.rest_length * curvatureTowards(size() - 1))).normalized()};
 }
 
 Pose Rod::at(double s) const {
@@ -60,9 +66,9 @@ Pose Rod::at(double s) const {
   s = std::clamp(s, 0.0, element.rest_length);
   const double fraction = s / element.rest_length;
   const double from_middle = s - 0.5 * element.rest_length;
-  const Bend& towards = from_middle < 0.0 ? bends[e] : bends[std::min(e + 1, size() - 1)];
+  const Vector3 curvature = curvatureTowards(from_middle < 0.0 ? e : std::min(e + 1, size() - 1));
   return {(1.0 - fraction) * vertices[e].position + fraction * vertices[e + 1].position,
-          (element.frame * exp(from_middle * towards.curvature)).normalized()};
+          (element.frame * exp(from_middle * curvature)).normalized()};
 }
 
 void Rod::rebuild() {

@@ -30,7 +30,9 @@ Organ::Organ(const OrganScenario& organ, const Scenario& scenario)
 
   rod_ = rod::straightRod(organ.base, organ.length, organ.elements, organ.section);
   rod_.base_support = organ.base_support;
-  for (rod::Bend& bend : rod_.bends) bend.curvature = bend.rest_curvature = organ.rest_curvature;
+  for (std::size_t j = rod_.firstBend(); j < rod_.size(); ++j) {
+    rod_.bends[j].curvature = rod_.bends[j].rest_curvature = organ.rest_curvature;
+  }
   rod_.rebuild();
   report_.divisions = rod::divideLongElements(rod_, organ.longest_element, organ.division);
   report_.fault = relax();

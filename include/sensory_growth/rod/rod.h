@@ -77,6 +77,9 @@ struct Rod {
   /// Frame at bend j: half-way along the geodesic between its neighbours. Everything sensed at a bend uses this frame.
   Quaternion bendFrame(std::size_t bend) const;
 
+  /// Curvature with which an element ends at a bend: zero at one without stiffness, whose turn is not the element's.
+  Vector3 curvatureTowards(std::size_t bend) const;
+
   /// Position of the last vertex with the frame extrapolated over the last half cell (model.md 1.4).
   Pose apex() const;
 

@@ -61,7 +61,9 @@ inline BendCouples bendCouples(const Quaternion& turn, const Lanes& inverse_voro
                                const Vector& stiffness) {
   const Lanes one(1.0);
   const Lanes s2 = turn.v.dot(turn.v);
-  const Lanes quarter = one / (one + turn.w);
+  // A hinge, which has no stiffness, may turn all the way round, where the formula has no limit.
+  const auto bends = stiffness[0] > Lanes(0.0);
+  const Lanes quarter = one / select(bends, one + turn.w, one);
   const Lanes a = Lanes(2.0) * quarter * arctangentRatio(s2 * quarter * quarter);
   const Lanes b = (one - turn.w * a) / (s2 + Lanes(1e-300));
   const Vector curvature = (Lanes(2.0) * a * inverse_voronoi) * turn.v;

@@ -13,6 +13,11 @@ struct alignas(64) Packet {
   double lane[kPacket];
 };
 
-inline std::size_t packetCount(std::size_t elements) { return (elements + kPacket - 1) / kPacket; }
+namespace {
+
+/// Internal, because files for different instruction sets include it.
+constexpr std::size_t packetCount(std::size_t elements) { return (elements + kPacket - 1) / kPacket; }
+
+}  // namespace
 
 }  // namespace sensory_growth::mechanics::kernels

@@ -24,22 +24,47 @@ inline Vector inFrame(const Quaternion& q, const Vector& x) {
   return x - q.w * t + q.v.cross(t);
 }
 
-/// q * exp(w), normalised.
-inline Quaternion turned(const Quaternion& q, const Vector& w) {
-  const Lanes angle = sqrt(w.dot(w));
-  const auto [sine, cosine] = sincos(Lanes(0.5) * angle);
-  const Vector u = select(angle > Lanes(0.0), sine / angle, Lanes(0.5)) * w;
-  const Quaternion r{q.w * cosine - q.v.dot(u), Vector(cosine * q.v + q.w * u + q.v.cross(u))};
-  const Lanes scale = Lanes(1.0) / sqrt(r.w * r.w + r.v.dot(r.v));
-  return {r.w * scale, Vector(r.v * scale)};
-}
-
 /// sum of coefficient[k] x^k, k < N.
 template <std::size_t N>
 Lanes polynomial(const double (&coefficient)[N], const Lanes& x) {
   Lanes sum(coefficient[N - 1]);
   for (std::size_t k = N - 1; k-- > 0;) sum = sum * x + Lanes(coefficient[k]);
   return sum;
+}
+
+/// q * exp(w), normalised, for turns up to pi.
+inline Quaternion turned(const Quaternion& q, const Vector& w) {
+  // sin(x) / x and cos(x) as series in x^2 for x up to pi / 2. Library functions would reduce larger arguments with
+  // code of external linkage, which must not be compiled for one instruction set and linked for another.
+  constexpr double kSine[] = {1.0,
+                              -1.0 / 6.0,
+                              1.0 / 120.0,
+                              -1.0 / 5040.0,
+                              1.0 / 362880.0,
+                              -1.0 / 39916800.0,
+                              1.0 / 6227020800.0,
+                              -1.0 / 1307674368000.0,
+                              1.0 / 355687428096000.0,
+                              -1.0 / 121645100408832000.0,
+                              1.0 / 51090942171709440000.0};
+  constexpr double kCosine[] = {1.0,
+                                -1.0 / 2.0,
+                                1.0 / 24.0,
+                                -1.0 / 720.0,
+                                1.0 / 40320.0,
+                                -1.0 / 3628800.0,
+                                1.0 / 479001600.0,
+                                -1.0 / 87178291200.0,
+                                1.0 / 20922789888000.0,
+                                -1.0 / 6402373705728000.0,
+                                1.0 / 2432902008176640000.0,
+                                -1.0 / 1124000727777607680000.0};
+  const Lanes half2 = Lanes(0.25) * w.dot(w);
+  const Lanes cosine = polynomial(kCosine, half2);
+  const Vector u = (Lanes(0.5) * polynomial(kSine, half2)) * w;
+  const Quaternion r{q.w * cosine - q.v.dot(u), Vector(cosine * q.v + q.w * u + q.v.cross(u))};
+  const Lanes scale = Lanes(1.0) / sqrt(r.w * r.w + r.v.dot(r.v));
+  return {r.w * scale, Vector(r.v * scale)};
 }
 
 /// Rotation vector theta of a turn and the coefficient c of J_l^-1(theta) = 1 - [theta]/2 + c [theta]^2.
