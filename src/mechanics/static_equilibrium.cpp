@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "least_energy.h"
 #include "reduced_energy.h"
 #include "sensory_growth/mechanics/rest_shape.h"
 #include "sensory_growth/mechanics/supported_equilibrium.h"
@@ -81,29 +82,14 @@ double searchLine(ReducedEnergy& energy, double max_rotation, Evaluation& here) 
   return 0.0;
 }
 
-/// Moves along the unstable direction to about the least energy: doubling until it rises, then through three points.
+/// Moves along the unstable direction to about the least energy.
 void leaveAlong(ReducedEnergy& energy, const TurnField& direction, Evaluation& here) {
   energy.setStep(direction);
   const double unit = 1.0 / energy.largestTurn();
-  const auto energyAt = [&](double angle) {
-    const Evaluation there = energy.tryStep(angle * unit);
+  const double angle = angleOfLeastEnergy(here.energy, [&](double trial) {
+    const Evaluation there = energy.tryStep(trial * unit);
     return there.largest_bend < kUnresolvable ? there.energy : std::numeric_limits<double>::infinity();
-  };
-  double angle = 0.02;
-  double before = here.energy, middle = energyAt(angle), beyond = energyAt(2.0 * angle);
-  while (beyond < middle && angle < 0.75) {
-    angle *= 2.0;
-    before = middle;
-    middle = beyond;
-    beyond = energyAt(2.0 * angle);
-  }
-  // Vertex of the parabola through angle / 2, angle and 2 angle (0, angle and 2 angle if the first trial was beyond
-  // it).
-  const double width = angle > 0.02 ? 0.5 * angle : angle;
-  const double left = (middle - before) / width;
-  const double right = (beyond - middle) / angle;
-  const double curvature = (right - left) / (0.5 * (width + angle));
-  if (curvature > 0.0) angle = std::clamp(angle - 0.5 * width - left / curvature, 0.25 * angle, 2.0 * angle);
+  });
   here = energy.tryStep(angle * unit);
   energy.accept();
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "chain_cholesky.h"
+#include "least_energy.h"
 #include "supported_energy.h"
 
 namespace sensory_growth::mechanics {
@@ -195,26 +196,12 @@ struct SupportedEquilibrium::Workspace {
     return std::max(kUnstable * energy.bendingScale(), 10.0 * largestColumn(gradient.rotations));
   }
 
-  /// Moves along the unstable direction to about the least energy: doubling until it rises, then through three points.
+  /// Moves along the unstable direction to about the least energy.
   void leaveAlong(const ChainEigenpair& pair, double value) {
     step.rotations = pair.response.rotations;
     step.strains = energy.strainsOf(pair.response);
     const double unit = 1.0 / largestColumn(step.rotations);
-    double angle = 0.02;
-    double before = value, now = tryStep(angle * unit), beyond = tryStep(2.0 * angle * unit);
-    while (beyond < now && angle < 0.75) {
-      angle *= 2.0;
-      before = now;
-      now = beyond;
-      beyond = tryStep(2.0 * angle * unit);
-    }
-    // Vertex of the parabola through angle / 2, angle and 2 angle (0, angle and 2 angle if the first trial was beyond
-    // it).
-    const double width = angle > 0.02 ? 0.5 * angle : angle;
-    const double left = (now - before) / width;
-    const double right = (beyond - now) / angle;
-    const double curvature = (right - left) / (0.5 * (width + angle));
-    if (curvature > 0.0) angle = std::clamp(angle - 0.5 * width - left / curvature, 0.25 * angle, 2.0 * angle);
+    const double angle = angleOfLeastEnergy(value, [&](double trial_angle) { return tryStep(trial_angle * unit); });
     tryStep(angle * unit);
     takeTrial();
   }
