@@ -142,30 +142,47 @@ void ReducedEnergy::clearPadding(const rod::Rod& rod) {
   }
 }
 
+bool ReducedEnergy::factor(double shift, kernels::PivotInverse* room) {
+  const kernels::Elimination elimination = kernels_->eliminate(view_, frames_.view(), shift, factor_.data(), room);
+  if (elimination.positive) decrement_ = elimination.decrement;
+  return elimination.positive;
+}
+
 bool ReducedEnergy::findStep(double shift) {
-  const kernels::Elimination elimination = kernels_->eliminate(view_, frames_.view(), shift, factor_.data());
-  if (!elimination.positive) return false;
-  decrement_ = elimination.decrement;
-  largest_turn_ = kernels_->substitute(view_, factor_.data(), step_.view());
-  return true;
+  step_is_spelled_out_ = false;
+  return factor(shift, nullptr);
+}
+
+void ReducedEnergy::take(const kernels::Advance& advance) {
+  largest_turn_ = advance.largest_turn;
+  last_turn_ = Eigen::Map<const Vector3>(advance.last_turn);
+}
+
+ReducedEnergy::Evaluation ReducedEnergy::tryWholeStep() {
+  const kernels::Advance advance = kernels_->advance(view_, factor_.data(), frames_.view(), trial_.view());
+  take(advance);
+  return advance.there;
+}
+
+void ReducedEnergy::tryWholeStepBlindly() {
+  take(kernels_->advanceBlindly(view_, factor_.data(), frames_.view(), trial_.view()));
+}
+
+ReducedEnergy::Evaluation ReducedEnergy::tryStep(double scale) {
+  if (!step_is_spelled_out_) kernels_->substitute(view_, factor_.data(), step_.view());
+  step_is_spelled_out_ = true;
+  kernels_->move(view_, frames_.view(), step_.view(), scale, trial_.view());
+  return kernels_->evaluate(view_, trial_.view());
 }
 
 void ReducedEnergy::setStep(const TurnField& step) {
+  step_is_spelled_out_ = true;
   largest_turn_ = 0.0;
   for (std::size_t e = 0; e < size(); ++e) {
     step_.set(e, step[e]);
     largest_turn_ = std::max(largest_turn_, step[e].norm());
   }
-}
-
-ReducedEnergy::Evaluation ReducedEnergy::tryStep(double scale) {
-  kernels_->move(view_, frames_.view(), step_.view(), scale, trial_.view());
-  return kernels_->evaluate(view_, trial_.view());
-}
-
-void ReducedEnergy::takeStep() {
-  kernels_->move(view_, frames_.view(), step_.view(), 1.0, trial_.view());
-  accept();
+  last_turn_ = step.back();
 }
 
 void ReducedEnergy::writeTo(rod::Rod& rod) {
@@ -208,7 +225,7 @@ TurnField ReducedEnergy::turnsFrom(const rod::Rod& rod) const {
   return field;
 }
 
-double ReducedEnergy::lowestEigenvalue(double shift) {
+std::optional<double> ReducedEnergy::lowestEigenvalue(double shift) {
   // Inverse iteration with a block of vectors. The lowest eigenvalues of a slender rod belong to bending in two
   // directions, often equally easy, and to twist; with these three and one more in the block the next eigenvalue,
   // several times the first, decides how fast it converges.
@@ -218,6 +235,8 @@ double ReducedEnergy::lowestEigenvalue(double shift) {
 
   const std::size_t freedoms = 3 * (size() - view_.first);
   if (freedoms == 0) return stiffness_scale_;
+  pivots_.resize(size());
+  if (!factor(shift, pivots_.data())) return std::nullopt;
   const auto m = static_cast<Eigen::Index>(std::min(kernels::kBlock, freedoms));
   block_.resize(3 * kernels::kBlock * size());
   image_.resize(block_.size());
@@ -236,7 +255,7 @@ double ReducedEnergy::lowestEigenvalue(double shift) {
     double mix[kernels::kBlock][kernels::kBlock] = {};
     BlockMatrix::Map(&mix[0][0]).topLeftCorner(m, m) = mix_;
     const kernels::BlockProducts products =
-        kernels_->solveBlock(view_, factor_.data(), mix, block_.data(), image_.data());
+        kernels_->solveBlock(view_, factor_.data(), pivots_.data(), mix, block_.data(), image_.data());
     block_.swap(image_);
     // Y^T A Y = Y^T X, with X mixed as it went in.
     const SmallMatrix stiffness = BlockMatrix::Map(&products.yx[0][0]).topLeftCorner(m, m) * mix_.transpose();
@@ -252,9 +271,9 @@ double ReducedEnergy::lowestEigenvalue(double shift) {
       // The Ritz value is an upper bound: a shift slightly beyond it sharpens the ratio to the next eigenvalue.
       const double closer = -value + 0.3 * std::abs(value) + change;
       if (closer < shift || shift == 0.0) {
-        if (findStep(closer)) {
+        if (factor(closer, pivots_.data())) {
           shift = closer;
-        } else if (!findStep(shift)) {
+        } else if (!factor(shift, pivots_.data())) {
           break;
         }
       }

@@ -69,9 +69,13 @@ class ShiftedNewton {
 /// zero if none lowers the energy; `here` is then where it led.
 double searchLine(ReducedEnergy& energy, double max_rotation, Evaluation& here) {
   const double noise = 1e-13 * here.magnitude;
-  double scale = std::min(1.0, max_rotation / energy.largestTurn());
-  for (int halvings = 0; halvings < 40; ++halvings, scale *= 0.5) {
-    const Evaluation there = energy.tryStep(scale);
+  Evaluation there = energy.tryWholeStep();
+  double scale = 1.0;
+  if (energy.largestTurn() > max_rotation) {
+    scale = max_rotation / energy.largestTurn();
+    there = energy.tryStep(scale);
+  }
+  for (int halvings = 0; halvings < 40; ++halvings, there = energy.tryStep(scale *= 0.5)) {
     const double gain = here.energy - there.energy + scale * energy.coupleWork();
     if (there.largest_bend < kUnresolvable && gain >= kArmijo * scale * energy.decrement() - noise) {
       energy.accept();
@@ -94,17 +98,13 @@ void leaveAlong(ReducedEnergy& energy, const TurnField& direction, Evaluation& h
   energy.accept();
 }
 
-/// Lowest eigenvalue, with the factor of the last step if that is fresh, and again with one of its own if it comes
-/// close to zero.
-double measureStability(ReducedEnergy& energy, bool factor_is_fresh) {
-  if (factor_is_fresh) {
-    const double lowest = energy.lowestEigenvalue(0.0);
-    if (lowest > 1e-3 * energy.bendingScale() / static_cast<double>(energy.size())) return lowest;
-  }
+double measureStability(ReducedEnergy& energy) {
+  const auto lowest = energy.lowestEigenvalue(0.0);
+  if (lowest && *lowest > 1e-3 * energy.bendingScale() / static_cast<double>(energy.size())) return *lowest;
   // A free turn makes the Hessian singular; without a shift, round-off would decide whether it has a factor.
   const double first = 1e-12 * energy.stiffnessScale();
   const double shift = factorShifted(energy, first, first);
-  return std::isfinite(shift) ? energy.lowestEigenvalue(shift) : -energy.stiffnessScale();
+  return energy.lowestEigenvalue(shift).value_or(-energy.stiffnessScale());
 }
 
 /// Leaves an unstable equilibrium in the direction of the last increment, or of a fixed one if there was none.
@@ -136,8 +136,10 @@ RelaxationReport StaticEquilibrium::approach(rod::Rod& rod, const Loads& loads) 
   energy.assign(rod, loads);
   RelaxationReport report;
   for (; report.iterations < 2; ++report.iterations) {
-    if (!energy.findStep(0.0) || !(energy.largestTurn() < kClose)) return relax(rod, loads, Stability::decided);
-    energy.takeStep();
+    if (!energy.findStep(0.0)) return relax(rod, loads, Stability::decided);
+    energy.tryWholeStepBlindly();
+    if (!(energy.largestTurn() < kClose)) return relax(rod, loads, Stability::decided);
+    energy.accept();
   }
   energy.writeTo(rod);
   return report;
@@ -172,7 +174,7 @@ RelaxationReport StaticEquilibrium::relax(rod::Rod& rod, const Loads& loads, Sta
       // instability. Nor is what the part of a body couple that has no potential, of norm |M| / 2, may add.
       const double left = std::max(kUnstable * energy.bendingScale(), 10.0 * here.largest_gradient);
       const double neutral = left + 0.5 * loads.tip_couple.norm();
-      const double lowest = measureStability(energy, factor_is_fresh);
+      const double lowest = measureStability(energy);
       report.lowest_eigenvalue = lowest;
       if (lowest >= -neutral) break;
       if (report.branch_switches == settings_.max_branch_switches) return stop(RelaxationReason::unstable);
@@ -228,7 +230,7 @@ const Reactions& StaticEquilibrium::reactions() const { return workspace_->suppo
 
 double StaticEquilibrium::lowestEigenvalue(const rod::Rod& rod, const Loads& loads) {
   workspace_->energy.assign(rod, loads);
-  return measureStability(workspace_->energy, false);
+  return measureStability(workspace_->energy);
 }
 
 }  // namespace sensory_growth::mechanics
