@@ -30,6 +30,9 @@ class ReducedEnergy {
   /// Takes the rod in the shape of its curvature, and what acts on it. Surroundings are not looked at.
   void assign(const rod::Rod& rod, const Loads& loads);
 
+  /// Takes the curvature and the rest curvature alone, of a rod that is otherwise as it was assigned.
+  void assignCurvature(const rod::Rod& rod);
+
   std::size_t size() const { return view_.size; }
 
   /// At the current frames.
@@ -120,7 +123,7 @@ class ReducedEnergy {
   void take(const kernels::Advance& advance);
   void assignElements(const rod::Rod& rod);
   void assignForces(const rod::Rod& rod, const Loads& loads);
-  void clearPadding(const rod::Rod& rod);
+  void clearPadding();
   double leaning(std::size_t e) const;
   rod::Vector3 leaningAxis() const;
 
@@ -128,7 +131,7 @@ class ReducedEnergy {
   kernels::RodView view_;
   std::vector<kernels::RodPacket> packets_;
   FrameColumns frames_, trial_;
-  TurnColumns step_, strain_;
+  TurnColumns step_, strain_, chord_;
   bool step_is_spelled_out_ = false;  ///< in step_; otherwise it is implied by factor_
   std::vector<kernels::FactorRow> factor_;
   std::vector<kernels::PivotInverse> pivots_;

@@ -19,6 +19,7 @@ using Evaluation = ReducedEnergy::Evaluation;
 constexpr double kArmijo = 1e-4;
 constexpr double kUnstable = 1e-9;     // of B / L: eigenvalues below minus this are unstable, model.md 12.4
 constexpr double kUnresolvable = 3.0;  // rad: near pi the rotation vector of a bend jumps
+constexpr double kClose = 0.1;         // rad: a first step up to this is taken without a look where it leads
 constexpr double kSmallStep = 1e-5;    // rad: the Hessian before such a step serves after it
 
 bool hasLengths(const rod::Rod& rod) {
@@ -130,7 +131,6 @@ StaticEquilibrium::StaticEquilibrium(StaticEquilibrium&&) noexcept = default;
 StaticEquilibrium& StaticEquilibrium::operator=(StaticEquilibrium&&) noexcept = default;
 
 RelaxationReport StaticEquilibrium::approach(rod::Rod& rod, const Loads& loads) {
-  constexpr double kClose = 0.1;  // rad
   if (!loads.surroundings.empty() || !hasLengths(rod)) return relax(rod, loads, Stability::decided);
   ReducedEnergy& energy = workspace_->energy;
   energy.assign(rod, loads);
@@ -147,22 +147,44 @@ RelaxationReport StaticEquilibrium::approach(rod::Rod& rod, const Loads& loads) 
 
 RelaxationReport StaticEquilibrium::relax(rod::Rod& rod, const Loads& loads, Stability stability) {
   if (!loads.surroundings.empty()) return workspace_->supported.relax(rod, loads);
+  if (!hasLengths(rod)) {
+    RelaxationReport report;
+    report.reason = RelaxationReason::not_finite;
+    return report;
+  }
+  workspace_->energy.assign(rod, loads);
+  return relaxAssigned(rod, loads, stability, false);
+}
+
+RelaxationReport StaticEquilibrium::relaxCorrected(rod::Rod& rod, const Loads& loads) {
+  if (!loads.surroundings.empty()) return workspace_->supported.relax(rod, loads);
+  workspace_->energy.assignCurvature(rod);
+  return relaxAssigned(rod, loads, Stability::decided, true);
+}
+
+RelaxationReport StaticEquilibrium::relaxAssigned(rod::Rod& rod, const Loads& loads, Stability stability,
+                                                  bool is_close) {
   RelaxationReport report;
   const auto stop = [&report](RelaxationReason reason) {
     report.reason = reason;
     return report;
   };
-  if (!hasLengths(rod)) return stop(RelaxationReason::not_finite);
-
   ReducedEnergy& energy = workspace_->energy;
-  energy.assign(rod, loads);
   // Forces of all elements beyond add up in each, so round-off grows with their number.
   const double round_off = 10.0 * static_cast<double>(rod.size()) * std::numeric_limits<double>::epsilon();
   const double stiffest = std::numeric_limits<double>::epsilon() * energy.stiffnessScale() / energy.coupleScale();
   const double tolerance = std::max({settings_.tolerance, round_off, stiffest});
+  const bool is_hinged = rod.base_support == rod::BaseSupport::hinged;
   ShiftedNewton newton;
   bool factor_is_fresh = false;
-  Evaluation here = energy.evaluate();
+  Evaluation here;
+  if (is_close && energy.findStep(0.0) && (here = energy.tryWholeStep(), energy.largestTurn() < kClose)) {
+    ++report.iterations;
+    energy.accept();
+    factor_is_fresh = energy.largestTurn() < kSmallStep && !is_hinged;
+  } else {
+    here = energy.evaluate();
+  }
   while (true) {
     report.residual = here.largest_gradient / energy.coupleScale();
     report.largest_bend = here.largest_bend;
@@ -189,8 +211,7 @@ RelaxationReport StaticEquilibrium::relax(rod::Rod& rod, const Loads& loads, Sta
     if (!newton.findStep(energy, report.residual)) return stop(RelaxationReason::not_finite);
     const double taken = searchLine(energy, settings_.max_rotation, here);
     if (taken == 0.0) return stop(RelaxationReason::line_search_failed);
-    factor_is_fresh = rod.base_support != rod::BaseSupport::hinged && newton.shift() == 0.0 &&
-                      taken * energy.largestTurn() < kSmallStep;
+    factor_is_fresh = !is_hinged && newton.shift() == 0.0 && taken * energy.largestTurn() < kSmallStep;
   }
   if (report.largest_bend > settings_.max_bend_angle) return stop(RelaxationReason::unresolved_bend);
 

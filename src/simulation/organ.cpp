@@ -5,6 +5,7 @@
 #include <limits>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "sensory_growth/mechanics/rest_shape.h"
 #include "sensory_growth/rod/division.h"
@@ -33,7 +34,6 @@ Organ::Organ(const OrganScenario& organ, const Scenario& scenario)
   for (std::size_t j = rod_.firstBend(); j < rod_.size(); ++j) {
     rod_.bends[j].curvature = rod_.bends[j].rest_curvature = organ.rest_curvature;
   }
-  rod_.rebuild();
   report_.divisions = rod::divideLongElements(rod_, organ.longest_element, organ.division);
   report_.fault = relax();
   if (!report_.ok() && method_ == RelaxationMethod::statics) {
@@ -86,7 +86,7 @@ const OrganReport& Organ::advance(double dt, const growth::Environment& environm
 }
 
 void Organ::undo() {
-  rod_ = before_step_;
+  std::swap(rod_, before_step_);
   report_ = report_before_step_;
 }
 
@@ -96,8 +96,6 @@ OrganFault Organ::growAndRelax(double dt, const growth::Environment& environment
                                                             : elongation_.strainAtFixedLength(rod_, rates_, dt);
   if (scenario_.elongation) growth::elongate(rod_, strain);
   growth::predict(rod_, scenario_.bending, strain, drive_);
-  // Growth carries the rod along: left in place, it would be compressed and ring (model.md 11.1).
-  rod_.rebuild();
   const bool moves = method_ == RelaxationMethod::continuous;
   const auto relax_predicted = [&] { return stepping_.second_order ? relaxInPassing() : relax(); };
   if ((moves ? move(dt / growth_per_second_) : relax_predicted()) != OrganFault::none) return OrganFault::relaxation;
@@ -105,8 +103,8 @@ OrganFault Organ::growAndRelax(double dt, const growth::Environment& environment
   if (stepping_.second_order) {
     growth::drive(scenario_.bending, environment, rod_, new_drive_);
     growth::correct(rod_, scenario_.bending, strain, drive_, new_drive_);
-    rod_.rebuild();
-    if (!moves && relax() != OrganFault::none) return OrganFault::relaxation;
+    if (moves) rod_.rebuild();
+    if (!moves && relaxCorrected() != OrganFault::none) return OrganFault::relaxation;
   }
 
   const std::size_t divisions = rod::divideLongElements(rod_, scenario_.longest_element, scenario_.division);
@@ -131,6 +129,10 @@ OrganFault Organ::relax() {
 /// The predicted equilibrium is only sensed: it need not be stable, nor more exact than the step.
 OrganFault Organ::relaxInPassing() {
   return method_ == RelaxationMethod::statics ? take(equilibrium_.approach(rod_, loads_)) : relax();
+}
+
+OrganFault Organ::relaxCorrected() {
+  return method_ == RelaxationMethod::statics ? take(equilibrium_.relaxCorrected(rod_, loads_)) : relax();
 }
 
 std::optional<double> Organ::lowestEigenvalue() const {

@@ -51,6 +51,8 @@ class RandomRod : public testing::TestWithParam<Case> {
     rod::Rod rod = rod_;
     for (std::size_t e = 0; e < rod.size(); ++e) {
       rod.elements[e].frame = (rod.elements[e].frame * rod::exp(h * direction_[e])).normalized();
+      const rod::Quaternion& below = e > 0 ? rod.elements[e - 1].frame : rod.base.frame;
+      rod.bends[e].curvature = rod::log(below.conjugate() * rod.elements[e].frame) / rod.voronoiLength(e);
     }
     energy_.assign(rod, loads_);
     energy_.writeTo(rod);

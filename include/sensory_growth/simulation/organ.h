@@ -52,7 +52,7 @@ class Organ {
   /// the organ is left as it was before the call.
   const OrganReport& advance(double dt, const growth::Environment& environment);
 
-  /// Takes back the last advance(), its report included.
+  /// Takes back the last advance(), its report included; once.
   void undo();
 
   const OrganScenario& scenario() const { return scenario_; }
@@ -72,6 +72,7 @@ class Organ {
   OrganFault growAndRelax(double dt, const growth::Environment& environment);
   OrganFault relax();
   OrganFault relaxInPassing();
+  OrganFault relaxCorrected();
   OrganFault move(double duration);
   OrganFault take(const mechanics::RelaxationReport& relaxation);
 

@@ -9,12 +9,6 @@
 namespace sensory_growth::mechanics::kernels {
 namespace {
 
-/// Components in the world of the vector x of the frame q.
-inline Vector inWorld(const Quaternion& q, const Vector& x) {
-  const Vector t = Lanes(2.0) * q.v.cross(x);
-  return x + q.w * t + q.v.cross(t);
-}
-
 /// q * exp(theta), of unit length to round-off; exact for |theta| < 0.2 rad, where the series end. The turn of a stable
 /// time step is far smaller.
 inline Quaternion turnedLittle(const Quaternion& q, const Vector& theta) {

@@ -77,6 +77,9 @@ struct BlockProducts {
 };
 
 struct ReducedKernels {
+  /// Frames from the turns of the bends, up from the base frame at index -1. The turns are those of whole packets.
+  void (*rebuild)(const RodView&, const TurnView& bends, const FrameView& frames);
+
   Evaluation (*evaluate)(const RodView&, const FrameView&);
 
   /// Factors Hessian + shift * 1 and eliminates minus the gradient. The inverses of the pivots, which the Newton step
@@ -100,8 +103,9 @@ struct ReducedKernels {
   BlockProducts (*solveBlock)(const RodView&, const FactorRow*, const PivotInverse*,
                               const double (&mix)[kBlock][kBlock], const double* x, double* y);
 
-  /// Turn of every bend and strain of every element.
-  void (*strains)(const RodView&, const FrameView&, const TurnView& angle, const TurnView& strain);
+  /// Turn of every bend, strain of every element, and its chord in the world over its rest length.
+  void (*strains)(const RodView&, const FrameView&, const TurnView& angle, const TurnView& strain,
+                  const TurnView& chord);
 
   /// Gradient, diagonal blocks (xx, xy, xz, yy, yz, zz) and the blocks at row e - 1, column e (by rows) of the Hessian.
   void (*blocks)(const RodView&, const FrameView&, double (*gradient)[3], double (*diagonal)[6], double (*upper)[9]);
