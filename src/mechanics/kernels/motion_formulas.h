@@ -18,9 +18,7 @@ inline Quaternion turnedLittle(const Quaternion& q, const Vector& theta) {
   const Lanes y = half.dot(half);
   const Lanes cosine = polynomial(kCosine, y);
   const Vector u = polynomial(kSineRatio, y) * half;
-  const Quaternion r{q.w * cosine - q.v.dot(u), Vector(cosine * q.v + q.w * u + q.v.cross(u))};
-  const Lanes scale = Lanes(1.5) - Lanes(0.5) * (r.w * r.w + r.v.dot(r.v));  // a Newton step towards 1 / |r|
-  return {r.w * scale, Vector(r.v * scale)};
+  return renormalized({q.w * cosine - q.v.dot(u), Vector(cosine * q.v + q.w * u + q.v.cross(u))});
 }
 
 /// atan(sqrt(u)) / sqrt(u), interpolated at Chebyshev points: to 1e-15 for 0 <= u <= 0.44.

@@ -35,6 +35,12 @@ inline Quaternion normalized(const Quaternion& q) {
   return {q.w * scale, Vector(q.v * scale)};
 }
 
+/// The same for a quaternion that is short or long by round-off only: a Newton step towards 1 / |q|.
+inline Quaternion renormalized(const Quaternion& q) {
+  const Lanes scale = Lanes(1.5) - Lanes(0.5) * (q.w * q.w + q.v.dot(q.v));
+  return {q.w * scale, Vector(q.v * scale)};
+}
+
 /// sum of coefficient[k] x^k, k < N.
 template <std::size_t N>
 Lanes polynomial(const double (&coefficient)[N], const Lanes& x) {
