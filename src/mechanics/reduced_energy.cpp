@@ -138,9 +138,9 @@ void ReducedEnergy::assignForces(const rod::Rod& rod, const Loads& loads) {
     above = half;
   }
   total += above.norm();
-  tip_couple_ = loads.tip_couple;
-  setLane(packets_[(n - 1) / kernels::kPacket].couple, (n - 1) % kernels::kPacket, loads.tip_couple);
-  couple_scale_ = std::max({total * rest_length_, bending_scale_, loads.tip_couple.norm()});
+  tip_couple_ = coupleOnLastElement(rod, loads);
+  setLane(packets_[(n - 1) / kernels::kPacket].couple, (n - 1) % kernels::kPacket, tip_couple_);
+  couple_scale_ = std::max({total * rest_length_, bending_scale_, tip_couple_.norm()});
 }
 
 void ReducedEnergy::clearPadding() {

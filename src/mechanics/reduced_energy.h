@@ -34,6 +34,7 @@ class ReducedEnergy {
   void assignCurvature(const rod::Rod& rod);
 
   std::size_t size() const { return view_.size; }
+  std::size_t firstFree() const { return view_.first; }  ///< element; those below are frozen
 
   /// At the current frames.
   Evaluation evaluate() const { return kernels_->evaluate(view_, frames_.view()); }
@@ -79,9 +80,10 @@ class ReducedEnergy {
   /// Turns that lead from the frames of `rod` to the current ones.
   TurnField turnsFrom(const rod::Rod& rod) const;
 
-  double coupleScale() const { return couple_scale_; }        ///< max(W L, B / L), W the sum of the forces [N m]
-  double bendingScale() const { return bending_scale_; }      ///< B / L: bends the rod by about a radian [N m]
-  double stiffnessScale() const { return stiffness_scale_; }  ///< about the largest entry of the Hessian [N m]
+  const rod::Vector3& tipCouple() const { return tip_couple_; }  ///< in the frame of the last element [N m]
+  double coupleScale() const { return couple_scale_; }           ///< max(W L, B / L), W the sum of the forces [N m]
+  double bendingScale() const { return bending_scale_; }         ///< B / L: bends the rod by about a radian [N m]
+  double stiffnessScale() const { return stiffness_scale_; }     ///< about the largest entry of the Hessian [N m]
 
   /// Gradient and Hessian as a whole, for tests: blocks at (e, e) and at (e - 1, e).
   void blocks(TurnField& gradient, std::vector<rod::Matrix3>& diagonal, std::vector<rod::Matrix3>& upper) const;

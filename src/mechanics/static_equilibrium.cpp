@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "couple_newton.h"
 #include "least_energy.h"
 #include "reduced_energy.h"
 #include "sensory_growth/mechanics/rest_shape.h"
@@ -131,7 +132,8 @@ StaticEquilibrium::StaticEquilibrium(StaticEquilibrium&&) noexcept = default;
 StaticEquilibrium& StaticEquilibrium::operator=(StaticEquilibrium&&) noexcept = default;
 
 RelaxationReport StaticEquilibrium::approach(rod::Rod& rod, const Loads& loads) {
-  if (!loads.surroundings.empty() || !hasLengths(rod)) return relax(rod, loads, Stability::decided);
+  const bool has_energy = loads.surroundings.empty() && loads.tip_couple.isZero(0.0);
+  if (!has_energy || !hasLengths(rod)) return relax(rod, loads, Stability::decided);
   ReducedEnergy& energy = workspace_->energy;
   energy.assign(rod, loads);
   RelaxationReport report;
@@ -157,7 +159,8 @@ RelaxationReport StaticEquilibrium::relax(rod::Rod& rod, const Loads& loads, Sta
 }
 
 RelaxationReport StaticEquilibrium::relaxCorrected(rod::Rod& rod, const Loads& loads) {
-  if (!loads.surroundings.empty()) return workspace_->supported.relax(rod, loads);
+  const bool has_energy = loads.surroundings.empty() && loads.tip_couple.isZero(0.0);
+  if (!has_energy) return relax(rod, loads, Stability::decided);
   workspace_->energy.assignCurvature(rod);
   return relaxAssigned(rod, loads, Stability::decided, true);
 }
@@ -185,6 +188,17 @@ RelaxationReport StaticEquilibrium::relaxAssigned(rod::Rod& rod, const Loads& lo
   } else {
     here = energy.evaluate();
   }
+  // A rod that turns the couple which bends it does not go down any energy. Where steps to the balance itself fail,
+  // those that lower the energy and count the work of the couple may still serve.
+  const auto balance = [&] {
+    if (loads.tip_couple.isZero(0.0)) return;
+    const double largest_gradient = tolerance * energy.coupleScale();
+    if (!balanceCouple(energy, largest_gradient, settings_.max_rotation, report.iterations)) {
+      energy.assignCurvature(rod);
+    }
+    here = energy.evaluate();
+  };
+  balance();
   while (true) {
     report.residual = here.largest_gradient / energy.coupleScale();
     report.largest_bend = here.largest_bend;
@@ -202,6 +216,7 @@ RelaxationReport StaticEquilibrium::relaxAssigned(rod::Rod& rod, const Loads& lo
       if (report.branch_switches == settings_.max_branch_switches) return stop(RelaxationReason::unstable);
       ++report.branch_switches;
       leaveUnstable(energy, rod, here);
+      balance();
       factor_is_fresh = false;
       continue;
     }

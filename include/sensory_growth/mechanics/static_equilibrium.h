@@ -26,8 +26,8 @@ class StaticEquilibrium {
   StaticEquilibrium(StaticEquilibrium&&) noexcept;
   StaticEquilibrium& operator=(StaticEquilibrium&&) noexcept;
 
-  /// Moves the rod from the shape of its curvature to a stable equilibrium. On failure the rod is left as it was given. A rod in
-  /// surroundings is left to SupportedEquilibrium.
+  /// Moves the rod from the shape of its curvature to a stable equilibrium. On failure the rod is left as it was given.
+  /// A rod in surroundings is left to SupportedEquilibrium.
   RelaxationReport relax(rod::Rod& rod, const Loads& loads, Stability stability = Stability::measured);
 
   /// Two iterations from a rod that is already close, such as one that has grown a little: their error is of fourth
