@@ -21,6 +21,7 @@ struct OrganSnapshot {
   std::string id;
   rod::Rod rod;
   std::vector<double> growth_rates;  ///< of the elements [1/s]
+  growth::CueFields cues;
   mechanics::Energy energy;
   mechanics::Surroundings surroundings;
   simulation::OrganReport report;  ///< of the step that led here

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "sensory_growth/growth/cues.h"
 #include "sensory_growth/growth/differential_growth.h"
 #include "sensory_growth/growth/elongation.h"
 #include "sensory_growth/mechanics/dynamics.h"
@@ -48,8 +49,8 @@ class Organ {
   /// fault.
   Organ(const OrganScenario& organ, const Scenario& scenario);
 
-  /// Advances by dt [s] of growth time in as many parts as the step limits ask for. On failure (report.ok() is false)
-  /// the organ is left as it was before the call.
+  /// Advances by dt [s] of growth time, from environment.time, in as many parts as the step limits ask for. On
+  /// failure (report.ok() is false) the organ is left as it was before the call.
   const OrganReport& advance(double dt, const growth::Environment& environment);
 
   /// Takes back the last advance(), its report included; once.
@@ -67,9 +68,14 @@ class Organ {
   /// Relative elongation rate of every element as the organ stands [1/s].
   std::vector<double> growthRates() const;
 
+  /// What every bend senses of every cue as the organ stands.
+  growth::CueFields cues(const growth::Environment& environment) const;
+
  private:
-  double longestPart(const growth::Environment& environment);
-  OrganFault growAndRelax(double dt, const growth::Environment& environment);
+  double longestPart(const growth::Environment& environment, double time);
+  OrganFault growAndRelax(double dt, const growth::Environment& environment, double time);
+  const rod::Rod& beforePart() const { return report_.substeps == 0 ? before_step_ : before_part_; }
+  double elasticAmplification() const;
   OrganFault relax();
   OrganFault relaxInPassing();
   OrganFault relaxCorrected();
@@ -86,8 +92,10 @@ class Organ {
   mechanics::StaticEquilibrium equilibrium_;
   mechanics::DynamicRelaxation dynamics_;
   growth::Elongation elongation_;
-  std::vector<Eigen::Vector2d> drive_, new_drive_;
+  growth::CueFields cues_;
+  std::vector<rod::Vector3> drive_, new_drive_;
   std::vector<double> rates_;
+  double amplification_ = 1.0, amplification_before_step_ = 1.0;  ///< as the last part left it
   OrganReport report_, report_before_step_;
 };
 
