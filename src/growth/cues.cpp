@@ -11,6 +11,16 @@ double softened(const rod::Vector3& v, double softening) {
   return std::isnormal(square) ? std::sqrt(square) : std::hypot(v.stableNorm(), softening);
 }
 
+/// d1 and d2 of a frame: the first two columns of its matrix.
+Eigen::Matrix<double, 3, 2> sectionAxes(const rod::Quaternion& q) {
+  const double x2 = 2.0 * q.x(), y2 = 2.0 * q.y(), z2 = 2.0 * q.z();
+  Eigen::Matrix<double, 3, 2> axes;
+  axes << 1.0 - (y2 * q.y() + z2 * q.z()), x2 * q.y() - z2 * q.w(),  //
+      x2 * q.y() + z2 * q.w(), 1.0 - (x2 * q.x() + z2 * q.z()),      //
+      x2 * q.z() - y2 * q.w(), y2 * q.z() + x2 * q.w();
+  return axes;
+}
+
 constexpr double kTurn = 6.283185307179586;
 
 }  // namespace
@@ -53,8 +63,8 @@ CueField::CueField(const Senses& senses, const Environment& environment, double 
 }
 
 SectionCues CueField::at(const Place& place) const {
-  const auto section = [directors = place.frame.toRotationMatrix()](const rod::Vector3& v) -> Eigen::Vector2d {
-    return directors.leftCols<2>().transpose() * v;
+  const auto section = [axes = sectionAxes(place.frame)](const rod::Vector3& v) -> Eigen::Vector2d {
+    return {axes.col(0).dot(v), axes.col(1).dot(v)};
   };
   // In the order of Cue.
   return {section(up_), section(towards_lights_), section(towardsPointSources(place.position)),
