@@ -45,8 +45,12 @@ std::optional<std::string> findFault(const Senses& senses) {
        {senses.gravity, senses.light_direction, senses.point_source, o.amplitude, o.phase, o.phase_gradient}) {
     if (!std::isfinite(value)) return "sensitivities and the oscillator must be finite";
   }
-  if (!(senses.softening_length >= 0.0)) return "softening_length must be >= 0 m";
-  if (!(senses.intensity_exponent > 0.0)) return "intensity_exponent must be > 0";
+  if (!(senses.softening_length >= 0.0) || !std::isfinite(senses.softening_length)) {
+    return "softening_length must be >= 0 m";
+  }
+  if (!(senses.intensity_exponent > 0.0) || !std::isfinite(senses.intensity_exponent)) {
+    return "intensity_exponent must be > 0";
+  }
   if (!(std::abs(o.period) > 0.0)) return "period of circumnutation must not be 0 s";
   return findFault(senses.distance, senses.softening_length);
 }

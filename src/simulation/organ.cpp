@@ -166,13 +166,16 @@ double Organ::longestPart(const growth::Environment& environment, double time) {
   const double differential_growth = growth::drive(rod_, law, cues_, drive_);
   report_.largest_differential_growth = std::max(report_.largest_differential_growth, differential_growth);
 
+  const double rotation = law.rotation ? std::abs(law.rotation->angularVelocity()) : 0.0;
   double fastest_growth = 0.0;
   double fastest_bend = 0.0;
   double total_turning = 0.0;
   double tip_speed = 0.0;
   for (std::size_t j = 0; j < rod_.size(); ++j) {
     const double growth_rate = rod::voronoiMean(rod_, j, [this](std::size_t e) { return rates_[e]; });
-    const double turning = rod_.voronoiLength(j) * growth_rate * growth::bendingRate(rod_, law, drive_, j).norm();
+    double bending = growth_rate * growth::bendingRate(rod_, law, drive_, j).norm();
+    if (growth_rate > 0.0) bending += rotation * rod_.bends[j].rest_curvature.head<2>().norm();
+    const double turning = rod_.voronoiLength(j) * bending;
     fastest_growth = std::max(fastest_growth, rates_[j]);
     fastest_bend = std::max(fastest_bend, turning);
     total_turning += turning;
@@ -196,7 +199,7 @@ double Organ::longestPart(const growth::Environment& environment, double time) {
 /// more (model.md 11.2). Bounded, so that a jump to another equilibrium shortens one part, not all that follow.
 double Organ::elasticAmplification() const {
   constexpr double kMostAmplification = 20.0;
-  if (method_ == RelaxationMethod::kinematics) return 1.0;
+  if (method_ == RelaxationMethod::kinematics || method_ == RelaxationMethod::continuous) return 1.0;
   double turning = 0.0;
   double rest_turning = 0.0;
   for (std::size_t j = rod_.firstBend(); j < rod_.size(); ++j) {

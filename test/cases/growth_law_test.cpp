@@ -80,7 +80,7 @@ TEST_P(SteadyActual, HasTheUniversalShapeUnderAnyWeight) {
   expectShape(steady(kActual, GetParam().G, GetParam().S), GetParam());
 }
 
-INSTANTIATE_TEST_SUITE_P(Oliveri2024, SteadyActual,
+INSTANTIATE_TEST_SUITE_P(AnyWeight, SteadyActual,
                          testing::Values(Sag{1, 1, 40.395, 0.86577, 0.43378}, Sag{1, 4, 40.395, 0.86577, 0.43378},
                                          Sag{2, 1, 15.415, 0.65088, 0.66250}, Sag{2, 4, 15.415, 0.65088, 0.66250},
                                          Sag{4, 1, 2.099, 0.38354, 0.82680}, Sag{4, 4, 2.099, 0.38354, 0.82680}));

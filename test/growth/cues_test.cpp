@@ -98,6 +98,39 @@ TEST(Cues, AnswerToAPowerOfTheStrengthWithItsSign) {
   EXPECT_NEAR(sensedAt(senses, environment, Vector3(0, 7, 0), Cue::point_source).x(), 0.4, 1e-15);
 }
 
+TEST(Cues, RefuseSensesThatWouldNotBeFinite) {
+  const auto isRefused = [](const auto& spoil) {
+    Senses senses;
+    spoil(senses);
+    return findFault(senses).has_value();
+  };
+  const double nan = std::nan("");
+  EXPECT_FALSE(isRefused([](Senses&) {}));
+  EXPECT_FALSE(isRefused([](Senses& s) { s.oscillator.period = -1.0; }));
+  EXPECT_TRUE(isRefused([=](Senses& s) { s.gravity = nan; }));
+  EXPECT_TRUE(isRefused([=](Senses& s) { s.oscillator.phase = nan; }));
+  EXPECT_TRUE(isRefused([=](Senses& s) { s.oscillator.period = nan; }));
+  EXPECT_TRUE(isRefused([](Senses& s) { s.oscillator.period = 0.0; }));
+  EXPECT_TRUE(isRefused([](Senses& s) { s.softening_length = -1.0; }));
+  EXPECT_TRUE(isRefused([](Senses& s) { s.intensity_exponent = 0.0; }));
+  EXPECT_TRUE(isRefused([](Senses& s) { s.distance = ExponentialPull{0.0}; }));
+}
+
+TEST(BendingLaw, RefusesLengthsAndPeriodsThatMakeNoSense) {
+  const auto isRefused = [](const auto& spoil) {
+    BendingLaw law;
+    spoil(law);
+    return findFault(law).has_value();
+  };
+  EXPECT_FALSE(isRefused([](BendingLaw&) {}));
+  EXPECT_TRUE(isRefused([](BendingLaw& law) { law.proprioception.intrinsic_length = -1.0; }));
+  EXPECT_TRUE(isRefused([](BendingLaw& law) { law.proprioception.actual_length = std::nan(""); }));
+  EXPECT_TRUE(isRefused([](BendingLaw& law) { law.proprioception.relaxation_length = HUGE_VAL; }));
+  EXPECT_TRUE(isRefused([](BendingLaw& law) { law.proprioception.set_point.x() = std::nan(""); }));
+  EXPECT_TRUE(isRefused([](BendingLaw& law) { law.rotation = RestRotation{0.0, 1e-3}; }));
+  EXPECT_TRUE(isRefused([](BendingLaw& law) { law.rotation = RestRotation{1.0, std::nan("")}; }));
+}
+
 TEST(Cues, TheOscillatorTurnsFromD1ToD2AndTissueLagsBehindTheApex) {
   Senses senses;
   senses.oscillator = {0.2, 8.0, 0.5, 3.0};

@@ -292,6 +292,16 @@ TEST(StepLimits, CutAStepIntoTheFewestPartsThatKeepThem) {
             2);
 }
 
+TEST(StepLimits, CountTheRotationOfTheRestCurvatureToo) {
+  // 10 per unit length in cells of 0.05 turn by 0.5 times 2 pi / 20 in a unit of time: 0.157 per bend.
+  EXPECT_EQ(partsWith([](Scenario& s) {
+              s.organs.front().rest_curvature = {0.0, 10.0, 0.0};
+              s.organs.front().bending.rotation = growth::RestRotation{20.0, 1e-3};
+              s.stepping.limits.bend_angle = 0.0064;
+            }),
+            3);
+}
+
 TEST(StepLimits, CountTheStraighteningToo) {
   // 10 per unit length, gamma / R = 2: 20 per unit length and strain, 1 rad per bend and strain, in a step of 0.1.
   EXPECT_EQ(partsWith([](Scenario& s) {
