@@ -7,6 +7,7 @@
 #include "sensory_growth/growth/cues.h"
 #include "sensory_growth/growth/differential_growth.h"
 #include "sensory_growth/growth/elongation.h"
+#include "sensory_growth/growth/perception.h"
 #include "sensory_growth/mechanics/dynamics.h"
 #include "sensory_growth/mechanics/energy.h"
 #include "sensory_growth/mechanics/static_equilibrium.h"
@@ -86,6 +87,8 @@ class Organ {
   mechanics::StaticEquilibrium equilibrium_;
   mechanics::DynamicRelaxation dynamics_;
   growth::Elongation elongation_;
+  growth::Perception perception_;
+  growth::Perception::Mark perception_before_step_;
   growth::CueFields cues_;
   std::vector<Eigen::Vector2d> drive_, new_drive_;
   std::vector<double> rates_;
