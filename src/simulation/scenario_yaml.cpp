@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "loads_yaml.h"
+#include "sensing_yaml.h"
 #include "sensory_growth/simulation/yaml_reader.h"
 
 namespace sensory_growth::simulation {
@@ -184,6 +185,7 @@ OrganScenario readOrgan(YamlReader& in, RelaxationMethod relaxation, IdLines& id
   in.section("growth", kRequired, [&](YamlReader& growth) { readGrowth(growth, organ); });
   in.section("sensitivities", kRequired,
              [&](YamlReader& sensitivities) { readSensitivities(sensitivities, organ.senses); });
+  organ.sensing = readSensing(in);
   organ.bending.proprioception_length = in.quantity("proprioception_length", dimension::length, atLeast(0));
   in.section("division", kRequired, [&](YamlReader& division) { readDivision(division, relaxation, organ); });
   readLoads(in, relaxation, organ);

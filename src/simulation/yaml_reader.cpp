@@ -166,6 +166,40 @@ double YamlReader::quantity(const std::string& key, const Dimension& dimension, 
   });
 }
 
+std::vector<double> YamlReader::quantities(const std::string& key, const Dimension& dimension, const Range& range) {
+  const Entry* e = sequence(key, "give a sequence, each " + example(dimension));
+  if (!e) return {};
+  return components(e->value, key, example(dimension), [&](const std::string& text) {
+    return inRange(parseQuantity(text, dimension), range, dimension.unit);
+  });
+}
+
+std::vector<double> YamlReader::numbers(const std::string& key, const Range& range) {
+  const std::string request = "a number without a unit";
+  const Entry* e = sequence(key, "give a sequence, each " + request);
+  if (!e) return {};
+  return components(e->value, key, request,
+                    [&](const std::string& text) { return inRange(parseNumber(text), range, ""); });
+}
+
+std::vector<std::vector<double>> YamlReader::matrix(const std::string& key, const Dimension& dimension) {
+  const std::string request = "give a sequence of rows, each a sequence of numbers like " + example(dimension);
+  std::vector<std::vector<double>> rows;
+  const Entry* e = sequence(key, request);
+  if (!e) return rows;
+  for (std::size_t i = 0; i < e->value.size(); ++i) {
+    const YAML::Node row = e->value[i];
+    const std::string row_key = key + "[" + std::to_string(i) + "]";
+    if (row.IsSequence()) {
+      rows.push_back(components(row, row_key, example(dimension),
+                                [&](const std::string& text) { return parseQuantity(text, dimension); }));
+    } else {
+      problems_.push_back({pathOf(row_key), lineOf(row, line(key)), simulation::describe(row) + "; " + request});
+    }
+  }
+  return rows;
+}
+
 rod::Vector3 YamlReader::vector(const std::string& key, const Dimension& dimension,
                                 std::optional<rod::Vector3> fallback) {
   if (fallback && !has(key)) return *fallback;
@@ -232,6 +266,26 @@ std::optional<std::size_t> YamlReader::indexOfChoice(const std::string& key, con
   return std::nullopt;
 }
 
+std::vector<std::size_t> YamlReader::indicesOfChoices(const std::string& key, const std::vector<std::string>& names) {
+  const std::string request = "give one or more of " + join(names, " and ") + ", each once";
+  std::vector<std::size_t> indices;
+  const Entry* e = sequence(key, request);
+  if (!e) return indices;
+  for (std::size_t i = 0; i < e->value.size(); ++i) {
+    const YAML::Node item = e->value[i];
+    const auto found = std::find(names.begin(), names.end(), item.IsScalar() ? item.Scalar() : "");
+    const auto index = static_cast<std::size_t>(found - names.begin());
+    const bool is_new = std::find(indices.begin(), indices.end(), index) == indices.end();
+    if (found != names.end() && is_new) {
+      indices.push_back(index);
+    } else {
+      problems_.push_back({pathOf(key + "[" + std::to_string(i) + "]"), lineOf(item, line(key)),
+                           simulation::describe(item) + (is_new ? "" : " again") + "; " + request});
+    }
+  }
+  return indices;
+}
+
 std::optional<std::size_t> YamlReader::indexOfOnlyKey(const std::vector<std::string>& names) {
   std::vector<std::size_t> present;
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -269,8 +323,8 @@ double YamlReader::convert(const std::string& key, int line, const std::string& 
   }
 }
 
-rod::Vector3 YamlReader::triple(const std::string& key, const std::string& component, const Parse& parse) {
-  const std::string request = "give a sequence of three, each " + component;
+rod::Vector3 YamlReader::triple(const std::string& key, const std::string& component_request, const Parse& parse) {
+  const std::string request = "give a sequence of three, each " + component_request;
   rod::Vector3 value = rod::Vector3::Constant(kNan);
   const Entry* e = find(key, Presence::required, request);
   if (!e) return value;
@@ -279,18 +333,38 @@ rod::Vector3 YamlReader::triple(const std::string& key, const std::string& compo
   } else if (e->value.size() != 3) {
     addProblem(key, "has " + std::to_string(e->value.size()) + " components; " + request);
   } else {
-    for (int i = 0; i < 3; ++i) {
-      const YAML::Node item = e->value[i];
-      const std::string item_key = key + "[" + std::to_string(i) + "]";
-      const int item_line = lineOf(item, line(key));
-      if (item.IsScalar()) {
-        value[i] = convert(item_key, item_line, item.Scalar(), parse);
-      } else {
-        problems_.push_back({pathOf(item_key), item_line, simulation::describe(item) + "; give " + component});
-      }
+    for (std::size_t i = 0; i < 3; ++i) {
+      value[static_cast<Eigen::Index>(i)] = component(e->value, i, key, component_request, parse);
     }
   }
   return value;
+}
+
+/// The entry of a key whose value is a sequence and not empty.
+const YamlReader::Entry* YamlReader::sequence(const std::string& key, const std::string& request) {
+  const Entry* e = find(key, Presence::required, request);
+  if (!e) return nullptr;
+  if (e->value.IsSequence() && e->value.size() > 0) return e;
+  addProblem(key, (e->value.IsSequence() ? std::string("is empty") : simulation::describe(e->value)) + "; " + request);
+  return nullptr;
+}
+
+std::vector<double> YamlReader::components(const YAML::Node& sequence, const std::string& key,
+                                           const std::string& request, const Parse& parse) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < sequence.size(); ++i) values.push_back(component(sequence, i, key, request, parse));
+  return values;
+}
+
+/// One number of a sequence.
+double YamlReader::component(const YAML::Node& sequence, std::size_t i, const std::string& key,
+                             const std::string& request, const Parse& parse) {
+  const YAML::Node item = sequence[i];
+  const std::string item_key = key + "[" + std::to_string(i) + "]";
+  const int item_line = lineOf(item, line(key));
+  if (item.IsScalar()) return convert(item_key, item_line, item.Scalar(), parse);
+  problems_.push_back({pathOf(item_key), item_line, simulation::describe(item) + "; give " + request});
+  return kNan;
 }
 
 void YamlReader::readMapping(const YAML::Node& node, const std::string& key, int line, const Body& body) {
