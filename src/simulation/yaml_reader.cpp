@@ -166,26 +166,21 @@ double YamlReader::quantity(const std::string& key, const Dimension& dimension, 
   });
 }
 
-std::vector<double> YamlReader::quantities(const std::string& key, const Dimension& dimension, const Range& range) {
-  const Entry* e = sequence(key, "give a sequence, each " + example(dimension));
-  if (!e) return {};
-  return components(e->value, key, example(dimension), [&](const std::string& text) {
-    return inRange(parseQuantity(text, dimension), range, dimension.unit);
-  });
+std::vector<double> YamlReader::numbers(const std::string& key, const Range& range) {
+  return sequence(key, "a number without a unit",
+                  [&](const std::string& text) { return inRange(parseNumber(text), range, ""); });
 }
 
-std::vector<double> YamlReader::numbers(const std::string& key, const Range& range) {
-  const std::string request = "a number without a unit";
-  const Entry* e = sequence(key, "give a sequence, each " + request);
-  if (!e) return {};
-  return components(e->value, key, request,
-                    [&](const std::string& text) { return inRange(parseNumber(text), range, ""); });
+std::vector<double> YamlReader::quantities(const std::string& key, const Dimension& dimension, const Range& range) {
+  return sequence(key, example(dimension), [&](const std::string& text) {
+    return inRange(parseQuantity(text, dimension), range, dimension.unit);
+  });
 }
 
 std::vector<std::vector<double>> YamlReader::matrix(const std::string& key, const Dimension& dimension) {
   const std::string request = "give a sequence of rows, each a sequence of numbers like " + example(dimension);
   std::vector<std::vector<double>> rows;
-  const Entry* e = sequence(key, request);
+  const Entry* e = findSequence(key, request);
   if (!e) return rows;
   for (std::size_t i = 0; i < e->value.size(); ++i) {
     const YAML::Node row = e->value[i];
@@ -269,7 +264,7 @@ std::optional<std::size_t> YamlReader::indexOfChoice(const std::string& key, con
 std::vector<std::size_t> YamlReader::indicesOfChoices(const std::string& key, const std::vector<std::string>& names) {
   const std::string request = "give one or more of " + join(names, " and ") + ", each once";
   std::vector<std::size_t> indices;
-  const Entry* e = sequence(key, request);
+  const Entry* e = findSequence(key, request);
   if (!e) return indices;
   for (std::size_t i = 0; i < e->value.size(); ++i) {
     const YAML::Node item = e->value[i];
@@ -323,6 +318,28 @@ double YamlReader::convert(const std::string& key, int line, const std::string& 
   }
 }
 
+/// The entry of a key whose value is a sequence and not empty.
+const YamlReader::Entry* YamlReader::findSequence(const std::string& key, const std::string& request) {
+  const Entry* e = find(key, Presence::required, request);
+  if (!e) return nullptr;
+  if (e->value.IsSequence() && e->value.size() > 0) return e;
+  addProblem(key, (e->value.IsSequence() ? std::string("is empty") : simulation::describe(e->value)) + "; " + request);
+  return nullptr;
+}
+
+std::vector<double> YamlReader::components(const YAML::Node& sequence, const std::string& key,
+                                           const std::string& request, const Parse& parse) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < sequence.size(); ++i) values.push_back(component(sequence, i, key, request, parse));
+  return values;
+}
+
+std::vector<double> YamlReader::sequence(const std::string& key, const std::string& component_request,
+                                         const Parse& parse) {
+  const Entry* e = findSequence(key, "give a sequence, each " + component_request);
+  return e ? components(e->value, key, component_request, parse) : std::vector<double>();
+}
+
 rod::Vector3 YamlReader::triple(const std::string& key, const std::string& component_request, const Parse& parse) {
   const std::string request = "give a sequence of three, each " + component_request;
   rod::Vector3 value = rod::Vector3::Constant(kNan);
@@ -338,22 +355,6 @@ rod::Vector3 YamlReader::triple(const std::string& key, const std::string& compo
     }
   }
   return value;
-}
-
-/// The entry of a key whose value is a sequence and not empty.
-const YamlReader::Entry* YamlReader::sequence(const std::string& key, const std::string& request) {
-  const Entry* e = find(key, Presence::required, request);
-  if (!e) return nullptr;
-  if (e->value.IsSequence() && e->value.size() > 0) return e;
-  addProblem(key, (e->value.IsSequence() ? std::string("is empty") : simulation::describe(e->value)) + "; " + request);
-  return nullptr;
-}
-
-std::vector<double> YamlReader::components(const YAML::Node& sequence, const std::string& key,
-                                           const std::string& request, const Parse& parse) {
-  std::vector<double> values;
-  for (std::size_t i = 0; i < sequence.size(); ++i) values.push_back(component(sequence, i, key, request, parse));
-  return values;
 }
 
 /// One number of a sequence.

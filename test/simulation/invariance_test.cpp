@@ -75,7 +75,7 @@ Scenario heavyOrgan(const Quaternion& turn, double roll) {
   organ.senses.gravity = organ.senses.light_direction = 0.1;
   organ.senses.point_source = 0.05;
   organ.senses.softening_length = 0.01;
-  organ.bending.proprioception_length = 0.02;
+  organ.bending.proprioception.intrinsic_length = 0.02;
   organ.longest_element = 0.055;
   organ.sensing = allRoutes();
   return scenario;

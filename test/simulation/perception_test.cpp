@@ -210,7 +210,7 @@ double largestResponse(const std::vector<Pulse>& pulses, double duration) {
   organ.base.frame.setIdentity();
   organ.elongation = false;
   organ.senses.light_direction = 5.0 * kRadius;
-  organ.bending.proprioception_length = 0.5 * kRadius;
+  organ.bending.proprioception.intrinsic_length = 0.5 * kRadius;
   organ.sensing.resize(1);
   organ.sensing[0].cues = {Cue::light_direction};
   organ.sensing[0].memory = growth::exponentialKernel(1.0);
@@ -283,7 +283,7 @@ Scenario everyRoute(double step, std::size_t elements) {
   OrganScenario& organ = scenario.organs.front();
   organ.senses.gravity = organ.senses.light_direction = organ.senses.point_source = 0.03;
   organ.senses.softening_length = 0.01;
-  organ.bending.proprioception_length = 0.01;
+  organ.bending.proprioception.intrinsic_length = 0.01;
   Route local;
   local.cues = {Cue::gravity};
   local.memory = growth::LinearOde{0.1, 0.2, {1.8, 1.0}};

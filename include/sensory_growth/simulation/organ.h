@@ -69,9 +69,14 @@ class Organ {
   /// Relative elongation rate of every element as the organ stands [1/s].
   std::vector<double> growthRates() const;
 
+  /// What every bend perceives of every cue as the organ stands.
+  growth::CueFields cues(const growth::Environment& environment) const;
+
  private:
   double longestPart(const growth::Environment& environment, double time);
   OrganFault growAndRelax(double dt, const growth::Environment& environment, double time);
+  const rod::Rod& beforePart() const { return report_.substeps == 0 ? before_step_ : before_part_; }
+  double elasticAmplification() const;
   OrganFault relax();
   OrganFault relaxInPassing();
   OrganFault move(double duration);
@@ -90,8 +95,9 @@ class Organ {
   growth::Perception perception_;
   growth::Perception::Mark perception_before_step_;
   growth::CueFields cues_;
-  std::vector<Eigen::Vector2d> drive_, new_drive_;
+  std::vector<rod::Vector3> drive_, new_drive_;
   std::vector<double> rates_;
+  double amplification_ = 1.0, amplification_before_step_ = 1.0;  ///< as the last part left it
   OrganReport report_, report_before_step_;
 };
 
