@@ -19,7 +19,8 @@ Organ::Organ(const OrganScenario& organ, const Scenario& scenario)
       growth_per_second_(scenario.growth_per_second),
       relaxation_settings_(scenario.relaxation_settings),
       equilibrium_(scenario.relaxation_settings),
-      dynamics_(scenario.dynamics_settings) {
+      dynamics_(scenario.dynamics_settings),
+      perception_(organ.sensing) {
   if (method_ == RelaxationMethod::continuous && !(growth_per_second_ > 0.0)) {
     throw std::invalid_argument("growth_per_second must be positive");
   }
@@ -52,9 +53,12 @@ const OrganReport& Organ::advance(double dt, const growth::Environment& environm
   before_step_ = rod_;
   report_before_step_ = report_;
   amplification_before_step_ = amplification_;
+  perception_.forgetTheOld();
+  perception_.setMark(perception_before_step_);
   report_ = {};
   const auto giveUp = [this](OrganFault fault) -> const OrganReport& {
     rod_ = before_step_;
+    perception_.takeBack(perception_before_step_);
     amplification_ = amplification_before_step_;
     report_.fault = fault;
     return report_;
@@ -79,6 +83,9 @@ const OrganReport& Organ::advance(double dt, const growth::Environment& environm
       remaining = parts > 1.0 ? remaining - part : 0.0;
       longest_allowed = dt;
       ++report_.substeps;
+      if (perception_.hasMemory()) {
+        perception_.remember(scenario_.senses, environment, time + part, rod_, cues_);
+      }
     } else {
       rod_ = beforePart();
       longest_allowed = 0.5 * part;
@@ -90,6 +97,7 @@ const OrganReport& Organ::advance(double dt, const growth::Environment& environm
 
 void Organ::undo() {
   std::swap(rod_, before_step_);
+  perception_.takeBack(perception_before_step_);
   report_ = report_before_step_;
   amplification_ = amplification_before_step_;
 }
@@ -106,7 +114,7 @@ OrganFault Organ::growAndRelax(double dt, const growth::Environment& environment
   if ((moves ? move(dt / growth_per_second_) : relax_predicted()) != OrganFault::none) return OrganFault::relaxation;
 
   if (stepping_.second_order) {
-    growth::sense(scenario_.senses, environment, time + dt, rod_, cues_);
+    perception_.expect(scenario_.senses, environment, time + dt, rod_, cues_);
     growth::drive(rod_, scenario_.bending, cues_, new_drive_);
     growth::correct(rod_, scenario_.bending, strain, drive_, new_drive_);
     if (moves) rod_.rebuild();
@@ -162,7 +170,7 @@ double Organ::longestPart(const growth::Environment& environment, double time) {
   const StepLimits& limits = stepping_.limits;
   const growth::BendingLaw& law = scenario_.bending;
   growth::elementRates(scenario_.profile, rod_, rates_);
-  growth::sense(scenario_.senses, environment, time, rod_, cues_);
+  perception_.remember(scenario_.senses, environment, time, rod_, cues_);
   const double differential_growth = growth::drive(rod_, law, cues_, drive_);
   report_.largest_differential_growth = std::max(report_.largest_differential_growth, differential_growth);
 
@@ -185,7 +193,7 @@ double Organ::longestPart(const growth::Environment& environment, double time) {
   const auto longest = [](double limit, double speed) {
     return speed > 0.0 ? limit / speed : std::numeric_limits<double>::infinity();
   };
-  double dt = longest(limits.growth_strain, fastest_growth);
+  double dt = std::min(longest(limits.growth_strain, fastest_growth), 0.5 * perception_.shortestDelay());
   if (scenario_.elongation) dt = std::min(dt, longest(limits.tip_advance * scenario_.longest_element, tip_speed));
   if (scenario_.senses.oscillator.amplitude != 0.0) {
     dt = std::min(dt, limits.oscillation * std::abs(scenario_.senses.oscillator.period));
@@ -214,7 +222,7 @@ double Organ::elasticAmplification() const {
 
 growth::CueFields Organ::cues(const growth::Environment& environment) const {
   growth::CueFields cues;
-  growth::sense(scenario_.senses, environment, environment.time, rod_, cues);
+  growth::Perception(perception_).expect(scenario_.senses, environment, environment.time, rod_, cues);
   return cues;
 }
 

@@ -11,6 +11,7 @@
 
 #include "loads_yaml.h"
 #include "senses_yaml.h"
+#include "sensing_yaml.h"
 #include "sensory_growth/simulation/yaml_reader.h"
 
 namespace sensory_growth::simulation {
@@ -181,6 +182,7 @@ OrganScenario readOrgan(YamlReader& in, RelaxationMethod relaxation, IdLines& id
   in.section("material", kRequired, [&](YamlReader& material) { readMaterial(material, relaxation, organ.section); });
   in.section("growth", kRequired, [&](YamlReader& growth) { readGrowth(growth, organ); });
   readSenses(in, organ);
+  organ.sensing = readSensing(in);
   in.section("division", kRequired, [&](YamlReader& division) { readDivision(division, relaxation, organ); });
   readLoads(in, relaxation, organ);
   organ.rest_curvature = in.vector("rest_curvature", dimension::curvature, organ.rest_curvature);

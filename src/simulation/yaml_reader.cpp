@@ -177,6 +177,24 @@ std::vector<double> YamlReader::quantities(const std::string& key, const Dimensi
   });
 }
 
+std::vector<std::vector<double>> YamlReader::matrix(const std::string& key, const Dimension& dimension) {
+  const std::string request = "give a sequence of rows, each a sequence of numbers like " + example(dimension);
+  std::vector<std::vector<double>> rows;
+  const Entry* e = findSequence(key, request);
+  if (!e) return rows;
+  for (std::size_t i = 0; i < e->value.size(); ++i) {
+    const YAML::Node row = e->value[i];
+    const std::string row_key = key + "[" + std::to_string(i) + "]";
+    if (row.IsSequence()) {
+      rows.push_back(components(row, row_key, example(dimension),
+                                [&](const std::string& text) { return parseQuantity(text, dimension); }));
+    } else {
+      problems_.push_back({pathOf(row_key), lineOf(row, line(key)), simulation::describe(row) + "; " + request});
+    }
+  }
+  return rows;
+}
+
 rod::Vector3 YamlReader::vector(const std::string& key, const Dimension& dimension,
                                 std::optional<rod::Vector3> fallback) {
   if (fallback && !has(key)) return *fallback;
@@ -243,6 +261,26 @@ std::optional<std::size_t> YamlReader::indexOfChoice(const std::string& key, con
   return std::nullopt;
 }
 
+std::vector<std::size_t> YamlReader::indicesOfChoices(const std::string& key, const std::vector<std::string>& names) {
+  const std::string request = "give one or more of " + join(names, " and ") + ", each once";
+  std::vector<std::size_t> indices;
+  const Entry* e = findSequence(key, request);
+  if (!e) return indices;
+  for (std::size_t i = 0; i < e->value.size(); ++i) {
+    const YAML::Node item = e->value[i];
+    const auto found = std::find(names.begin(), names.end(), item.IsScalar() ? item.Scalar() : "");
+    const auto index = static_cast<std::size_t>(found - names.begin());
+    const bool is_new = std::find(indices.begin(), indices.end(), index) == indices.end();
+    if (found != names.end() && is_new) {
+      indices.push_back(index);
+    } else {
+      problems_.push_back({pathOf(key + "[" + std::to_string(i) + "]"), lineOf(item, line(key)),
+                           simulation::describe(item) + (is_new ? "" : " again") + "; " + request});
+    }
+  }
+  return indices;
+}
+
 std::optional<std::size_t> YamlReader::indexOfOnlyKey(const std::vector<std::string>& names) {
   std::vector<std::size_t> present;
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -280,21 +318,26 @@ double YamlReader::convert(const std::string& key, int line, const std::string& 
   }
 }
 
+/// The entry of a key whose value is a sequence and not empty.
+const YamlReader::Entry* YamlReader::findSequence(const std::string& key, const std::string& request) {
+  const Entry* e = find(key, Presence::required, request);
+  if (!e) return nullptr;
+  if (e->value.IsSequence() && e->value.size() > 0) return e;
+  addProblem(key, (e->value.IsSequence() ? std::string("is empty") : simulation::describe(e->value)) + "; " + request);
+  return nullptr;
+}
+
+std::vector<double> YamlReader::components(const YAML::Node& sequence, const std::string& key,
+                                           const std::string& request, const Parse& parse) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < sequence.size(); ++i) values.push_back(component(sequence, i, key, request, parse));
+  return values;
+}
+
 std::vector<double> YamlReader::sequence(const std::string& key, const std::string& component_request,
                                          const Parse& parse) {
-  const std::string request = "give a sequence, each " + component_request;
-  std::vector<double> values;
-  const Entry* e = find(key, Presence::required, request);
-  if (!e) return values;
-  if (!e->value.IsSequence()) {
-    addProblem(key, simulation::describe(e->value) + "; " + request);
-    return values;
-  }
-  if (e->value.size() == 0) addProblem(key, "is empty; " + request);
-  for (std::size_t i = 0; i < e->value.size(); ++i) {
-    values.push_back(component(e->value, i, key, component_request, parse));
-  }
-  return values;
+  const Entry* e = findSequence(key, "give a sequence, each " + component_request);
+  return e ? components(e->value, key, component_request, parse) : std::vector<double>();
 }
 
 rod::Vector3 YamlReader::triple(const std::string& key, const std::string& component_request, const Parse& parse) {

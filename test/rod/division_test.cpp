@@ -35,7 +35,7 @@ class Division : public testing::TestWithParam<DivisionMode> {
   static constexpr std::size_t kElements = 8;
 
   Rod randomRod() {
-    Rod rod = support::randomRod(generator_, kElements);
+    Rod rod = support::randomMovingRod(generator_, kElements);
     if (GetParam() == DivisionMode::keep_strain) rod.rebuildPositions();
     return rod;
   }
@@ -86,6 +86,71 @@ TEST_P(Division, ConservesLengthAndMass) {
   EXPECT_NEAR(reference, before_reference, 1e-12);
 }
 
+/// Of the vertices, that is without the turning of the elements about their middles.
+Vector3 momentum(const Rod& rod) {
+  Vector3 sum = Vector3::Zero();
+  for (std::size_t v = 0; v <= rod.size(); ++v) sum += rod.vertexMass(v) * rod.vertices[v].velocity;
+  return sum;
+}
+
+TEST_P(Division, ConservesMomentumAndTurning) {
+  for (std::size_t e = 0; e < kElements; ++e) {
+    const Rod before = randomRod();
+    const Rod after = divided(before, e, GetParam());
+    EXPECT_LT((momentum(after) - momentum(before)).norm(), 1e-12);
+    const Vector3 turning = before.elements[e].frame * before.elements[e].angular_velocity;
+    for (const Element& daughter : {after.elements[e], after.elements[e + 1]}) {
+      EXPECT_LT((daughter.frame * daughter.angular_velocity - turning).norm(), 1e-12);
+    }
+  }
+}
+
+bool sameSection(const Section& a, const Section& b) {
+  return a.radius == b.radius && a.young_modulus == b.young_modulus && a.shear_modulus == b.shear_modulus &&
+         a.density == b.density && a.shear_correction == b.shear_correction && a.inextensible == b.inextensible;
+}
+
+TEST_P(Division, DaughtersInheritTheTissueOfTheirParent) {
+  for (std::size_t e = 0; e < kElements; ++e) {
+    const Rod before = randomRod();
+    const Rod after = divided(before, e, GetParam());
+    const Element& parent = before.elements[e];
+    for (const Element& daughter : {after.elements[e], after.elements[e + 1]}) {
+      EXPECT_TRUE(sameSection(daughter.section, parent.section));
+      EXPECT_EQ(daughter.rest_strain, parent.rest_strain);
+      EXPECT_EQ(daughter.rest_length, 0.5 * parent.rest_length);
+      EXPECT_EQ(daughter.reference_length, 0.5 * parent.reference_length);
+      if (GetParam() == DivisionMode::keep_strain) {
+        EXPECT_EQ(daughter.strain, parent.strain);
+      }
+    }
+  }
+}
+
+TEST_P(Division, LeavesEveryFieldOfTheOthersAlone) {
+  for (std::size_t e = 0; e < kElements; ++e) {
+    const Rod before = randomRod();
+    const Rod after = divided(before, e, GetParam());
+    for (std::size_t k = 0; k < kElements; ++k) {
+      const std::size_t now = k < e ? k : k + 1;
+      EXPECT_EQ(after.bends[k <= e ? k : k + 1].curvature, before.bends[k].curvature);
+      EXPECT_EQ(after.bends[k <= e ? k : k + 1].rest_curvature, before.bends[k].rest_curvature);
+      if (k == e) continue;
+      EXPECT_TRUE(sameSection(after.elements[now].section, before.elements[k].section));
+      EXPECT_EQ(after.elements[now].rest_length, before.elements[k].rest_length);
+      EXPECT_EQ(after.elements[now].reference_length, before.elements[k].reference_length);
+      EXPECT_EQ(after.elements[now].strain, before.elements[k].strain);
+      EXPECT_EQ(after.elements[now].rest_strain, before.elements[k].rest_strain);
+      EXPECT_EQ(after.elements[now].angular_velocity, before.elements[k].angular_velocity);
+    }
+    for (std::size_t v = 0; v <= kElements; ++v) {
+      const Vertex& now = after.vertices[v <= e ? v : v + 1];
+      EXPECT_EQ(now.label, before.vertices[v].label);
+      EXPECT_EQ(now.velocity, before.vertices[v].velocity);
+    }
+  }
+}
+
 TEST_P(Division, KeepsConstantCurvatureInAnyOrderAndForAnyLengths) {
   const Vector3 curvature(0.7, -1.9, 2.3);
   Rod rod = randomRod();
@@ -113,6 +178,12 @@ TEST_P(Division, DoesNotDependOnTheOrder) {
     EXPECT_EQ(upper_first.bends[j].rest_curvature, lower_first.bends[j].rest_curvature);
     EXPECT_EQ(upper_first.bends[j].curvature, together.bends[j].curvature);
     EXPECT_EQ(upper_first.bends[j].rest_curvature, together.bends[j].rest_curvature);
+    EXPECT_EQ(upper_first.elements[j].rest_strain, together.elements[j].rest_strain);
+    EXPECT_EQ(upper_first.elements[j].rest_strain, lower_first.elements[j].rest_strain);
+    EXPECT_EQ(upper_first.vertices[j].label, together.vertices[j].label);
+    EXPECT_EQ(upper_first.vertices[j].label, lower_first.vertices[j].label);
+    EXPECT_EQ(upper_first.vertices[j].velocity, together.vertices[j].velocity);
+    EXPECT_EQ(upper_first.vertices[j].velocity, lower_first.vertices[j].velocity);
   }
 }
 
@@ -133,7 +204,10 @@ TEST_P(Division, IsSymmetricUnderReversal) {
       e.frame = e.frame * Quaternion(0.0, 1.0, 0.0, 0.0);
       e.strain.x() *= -1.0;  // components of R (e3 + sigma) reversed: d1 keeps its sign, d2 and d3 flip
       e.rest_strain.x() *= -1.0;
+      e.angular_velocity = e.angular_velocity.cwiseProduct(Vector3(1.0, -1.0, -1.0));
     }
+    std::reverse(r.vertices.begin(), r.vertices.end());
+    for (Vertex& v : r.vertices) v.label = 1.0 - v.label;
     for (std::size_t j = 1; j < rod.size(); ++j) {
       const Bend& source = rod.bends[rod.size() - j];
       r.bends[j].curvature = source.curvature.cwiseProduct(Vector3(-1.0, 1.0, 1.0));
@@ -149,6 +223,10 @@ TEST_P(Division, IsSymmetricUnderReversal) {
     EXPECT_LT((back.bends[e].rest_curvature - straight.bends[e].rest_curvature).norm(), 1e-12) << "bend " << e;
     EXPECT_LT(frameDistance(back.elements[e].frame, straight.elements[e].frame), 1e-12) << "element " << e;
     EXPECT_LT((back.elements[e].strain - straight.elements[e].strain).norm(), 1e-12) << "element " << e;
+    EXPECT_LT((back.elements[e].rest_strain - straight.elements[e].rest_strain).norm(), 1e-12) << "element " << e;
+    EXPECT_LT((back.elements[e].angular_velocity - straight.elements[e].angular_velocity).norm(), 1e-12) << e;
+    EXPECT_LT((back.vertices[e].velocity - straight.vertices[e].velocity).norm(), 1e-12) << "vertex " << e;
+    EXPECT_NEAR(back.vertices[e].label, straight.vertices[e].label, 1e-12) << "vertex " << e;
   }
 }
 

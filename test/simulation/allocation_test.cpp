@@ -80,6 +80,24 @@ TEST(Allocations, AreNotNeededByASteadyKinematicStep) {
   EXPECT_EQ(allocationsOfSteadySteps(simulation), 0);
 }
 
+TEST(Allocations, AreNotNeededByAStepThatRemembers) {
+  Scenario scenario = shoot(RelaxationMethod::kinematics).scenario();
+  growth::Route late;
+  late.cues = {growth::Cue::gravity};
+  late.memory = growth::LinearOde{0.04, 0.1, {2.0, 1.0}};
+  growth::Route apical;
+  apical.cues = {growth::Cue::gravity};
+  apical.sensor = growth::Sensor{};
+  apical.memory = growth::Delay{0.04};
+  growth::Route fading;
+  fading.cues = {growth::Cue::gravity};
+  fading.spread = growth::FadingSpread{growth::FadingSpread::Direction::both, 0.2};
+  scenario.organs.front().sensing = {late, apical, fading};
+  Simulation simulation(scenario);
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(simulation.step().ok);  // until the past is as long as it gets
+  EXPECT_EQ(allocationsOfSteadySteps(simulation), 0);
+}
+
 TEST(Allocations, AreNotNeededWithAnyCueAndGrowthLaw) {
   Scenario scenario = shoot(RelaxationMethod::statics).scenario();
   OrganScenario& organ = scenario.organs.front();

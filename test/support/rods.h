@@ -73,6 +73,18 @@ inline rod::Rod randomRod(std::mt19937& generator, std::size_t elements) {
   return rod;
 }
 
+/// The same with random labels and velocities: no field has a value that another one could be mistaken for.
+inline rod::Rod randomMovingRod(std::mt19937& generator, std::size_t elements) {
+  rod::Rod rod = randomRod(generator, elements);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0 / static_cast<double>(elements));
+  for (std::size_t v = 0; v <= elements; ++v) {
+    if (v > 0 && v < elements) rod.vertices[v].label += 0.9 * uniform(generator);
+    rod.vertices[v].velocity = randomVector(generator, 2.0);
+  }
+  for (rod::Element& e : rod.elements) e.angular_velocity = randomVector(generator, 4.0);
+  return rod;
+}
+
 /// Observed order of convergence from the errors at step h and h / 2.
 inline double order(double coarse_error, double fine_error) { return std::log2(std::abs(coarse_error / fine_error)); }
 

@@ -7,6 +7,7 @@
 #include "sensory_growth/growth/cues.h"
 #include "sensory_growth/growth/differential_growth.h"
 #include "sensory_growth/growth/elongation.h"
+#include "sensory_growth/growth/perception.h"
 #include "sensory_growth/mechanics/dynamics.h"
 #include "sensory_growth/mechanics/energy.h"
 #include "sensory_growth/mechanics/static_equilibrium.h"
@@ -68,7 +69,7 @@ class Organ {
   /// Relative elongation rate of every element as the organ stands [1/s].
   std::vector<double> growthRates() const;
 
-  /// What every bend senses of every cue as the organ stands.
+  /// What every bend perceives of every cue as the organ stands.
   growth::CueFields cues(const growth::Environment& environment) const;
 
  private:
@@ -92,6 +93,8 @@ class Organ {
   mechanics::StaticEquilibrium equilibrium_;
   mechanics::DynamicRelaxation dynamics_;
   growth::Elongation elongation_;
+  growth::Perception perception_;
+  growth::Perception::Mark perception_before_step_;
   growth::CueFields cues_;
   std::vector<rod::Vector3> drive_, new_drive_;
   std::vector<double> rates_;

@@ -9,6 +9,7 @@
 
 #include "sensory_growth/growth/cues.h"
 #include "sensory_growth/growth/differential_growth.h"
+#include "sensory_growth/growth/perception.h"
 #include "sensory_growth/growth/profile.h"
 #include "sensory_growth/mechanics/dynamics.h"
 #include "sensory_growth/mechanics/static_equilibrium.h"
@@ -43,6 +44,7 @@ struct OrganScenario {
   bool elongation = true;  ///< off: the organ bends by growth but keeps its length (the AC model)
   growth::TwistTransport twist_transport = growth::TwistTransport::angle;
   growth::Senses senses;
+  std::vector<growth::Route> sensing;  ///< of cues that are not perceived where and when they are
   growth::BendingLaw bending;
 
   double longest_element = std::numeric_limits<double>::infinity();  ///< longer elements divide [m]; infinity: never

@@ -64,7 +64,8 @@ class YamlReader {
                   std::optional<double> fallback = {});                     ///< in SI
   std::vector<double> numbers(const std::string& key, const Range& range);  ///< one or more
   std::vector<double> quantities(const std::string& key, const Dimension& dimension,
-                                 const Range& range);  ///< one or more, in SI
+                                 const Range& range);                                           ///< one or more, in SI
+  std::vector<std::vector<double>> matrix(const std::string& key, const Dimension& dimension);  ///< rows, in SI
   rod::Vector3 vector(const std::string& key, const Dimension& dimension,
                       std::optional<rod::Vector3> fallback = {});  ///< in SI
   rod::Vector3 direction(const std::string& key);                  ///< of unit length
@@ -76,6 +77,14 @@ class YamlReader {
     if (fallback && !has(key)) return fallback;
     const std::optional<std::size_t> i = indexOfChoice(key, names(options));
     return i ? std::optional<Value>(options[*i].second) : std::nullopt;
+  }
+
+  /// The values of the options that a sequence names, one or more; without those that are not known.
+  template <typename Value>
+  std::vector<Value> choices(const std::string& key, const Options<Value>& options) {
+    std::vector<Value> values;
+    for (const std::size_t i : indicesOfChoices(key, names(options))) values.push_back(options[i].second);
+    return values;
   }
 
   /// The value of the one option whose name is a key of this mapping; nothing, and a problem, if none or several are.
@@ -116,6 +125,7 @@ class YamlReader {
   }
 
   std::optional<std::size_t> indexOfChoice(const std::string& key, const std::vector<std::string>& names);
+  std::vector<std::size_t> indicesOfChoices(const std::string& key, const std::vector<std::string>& names);
   std::optional<std::size_t> indexOfOnlyKey(const std::vector<std::string>& names);
 
   const Entry* entry(const std::string& key) const;
@@ -123,8 +133,11 @@ class YamlReader {
   std::optional<std::string> scalar(const std::string& key, Presence presence, const std::string& request);
   using Parse = std::function<double(const std::string&)>;
   double convert(const std::string& key, int line, const std::string& text, const Parse& parse);
+  const Entry* findSequence(const std::string& key, const std::string& request);
   double component(const YAML::Node& sequence, std::size_t i, const std::string& key, const std::string& request,
                    const Parse& parse);
+  std::vector<double> components(const YAML::Node& sequence, const std::string& key, const std::string& request,
+                                 const Parse& parse);
   std::vector<double> sequence(const std::string& key, const std::string& component_request, const Parse& parse);
   rod::Vector3 triple(const std::string& key, const std::string& component_request, const Parse& parse);
   void readMapping(const YAML::Node& node, const std::string& key, int line, const Body& body);
