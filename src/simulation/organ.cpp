@@ -70,7 +70,7 @@ const OrganReport& Organ::advance(double dt, const growth::Environment& environm
     // The first part starts where the step does, and one part is the rule.
     rod::Rod& before_part = report_.substeps == 0 ? before_step_ : before_part_;
     if (report_.substeps > 0) before_part_ = rod_;
-    const OrganFault fault = growAndRelax(part, environment);
+    const OrganFault fault = growAndRelax(part, environment, before_part);
     if (fault == OrganFault::too_many_elements) return giveUp(fault);
     if (fault == OrganFault::none) {
       remaining = parts > 1.0 ? remaining - part : 0.0;
@@ -90,12 +90,14 @@ void Organ::undo() {
   report_ = report_before_step_;
 }
 
-/// Expects rates_ and drive_ at the start of the part, as longestPart() leaves them.
-OrganFault Organ::growAndRelax(double dt, const growth::Environment& environment) {
-  const growth::GrowthStrain& strain = scenario_.elongation ? elongation_.strain(scenario_.profile, rod_, rates_, dt)
-                                                            : elongation_.strainAtFixedLength(rod_, rates_, dt);
+/// Expects rates_, factors_ and drive_ at the start of the part, as longestPart() leaves them, and the rod as it was
+/// then.
+OrganFault Organ::growAndRelax(double dt, const growth::Environment& environment, const rod::Rod& before) {
+  const growth::GrowthStrain& strain = growthStrain(before, dt);
   if (scenario_.elongation) growth::elongate(rod_, strain);
   growth::predict(rod_, scenario_.bending, strain, drive_);
+  growOlder(before, strain, dt);
+  if (scenario_.aging) deposition_.predict(rod_, before);
   // Growth carries the rod along: left in place, it would be compressed and ring (model.md 11.1).
   rod_.rebuild();
   const bool moves = method_ == RelaxationMethod::continuous;
@@ -105,6 +107,8 @@ OrganFault Organ::growAndRelax(double dt, const growth::Environment& environment
   if (stepping_.second_order) {
     growth::drive(scenario_.bending, environment, rod_, new_drive_);
     growth::correct(rod_, scenario_.bending, strain, drive_, new_drive_);
+    if (scenario_.stress_coupling) correctFactors(before, strain, dt);
+    if (scenario_.aging) deposition_.correct(rod_, before);
     rod_.rebuild();
     if (!moves && relax() != OrganFault::none) return OrganFault::relaxation;
   }
@@ -113,6 +117,31 @@ OrganFault Organ::growAndRelax(double dt, const growth::Environment& environment
   report_.divisions += divisions;
   if (rod_.size() > kMostElements) return OrganFault::too_many_elements;
   return divisions == 0 || moves ? OrganFault::none : relax();
+}
+
+const growth::GrowthStrain& Organ::growthStrain(const rod::Rod& before, double dt) {
+  return scenario_.elongation ? elongation_.strain(scenario_.profile, factors_, before, rates_, dt)
+                              : elongation_.strainAtFixedLength(before, rates_, dt);
+}
+
+/// The organ ages by the time that it has not spent growing.
+void Organ::growOlder(const rod::Rod& before, const growth::GrowthStrain& strain, double dt) {
+  if (!scenario_.aging) return;
+  growth::growOlder(rod_, before, *scenario_.aging, scenario_.section, strain, growth::largestRate(scenario_.profile),
+                    dt);
+}
+
+/// Grows by what the mean of the growth factors at the start and the end of the part adds to the predicted strain.
+void Organ::correctFactors(const rod::Rod& before, const growth::GrowthStrain& strain, double dt) {
+  predicted_strain_ = strain;
+  growth::stressFactors(*scenario_.stress_coupling, rod_, new_factors_);
+  for (std::size_t e = 0; e < factors_.size(); ++e) factors_[e] = 0.5 * (factors_[e] + new_factors_[e]);
+  growth::elementRates(scenario_.profile, factors_, before, rates_);
+  const growth::GrowthStrain& corrected = growthStrain(before, dt);
+  growth::difference(predicted_strain_, corrected, extra_strain_);
+  if (scenario_.elongation) growth::elongate(rod_, extra_strain_);
+  growth::predict(rod_, scenario_.bending, extra_strain_, new_drive_);
+  growOlder(before, corrected, dt);
 }
 
 OrganFault Organ::relax() {
@@ -152,7 +181,8 @@ OrganFault Organ::take(const mechanics::RelaxationReport& relaxation) {
 double Organ::longestPart(const growth::Environment& environment) {
   const StepLimits& limits = stepping_.limits;
   const growth::BendingLaw& law = scenario_.bending;
-  growth::elementRates(scenario_.profile, rod_, rates_);
+  if (scenario_.stress_coupling) growth::stressFactors(*scenario_.stress_coupling, rod_, factors_);
+  growth::elementRates(scenario_.profile, factors_, rod_, rates_);
   const double differential_growth = growth::drive(law, environment, rod_, drive_);
   report_.largest_differential_growth = std::max(report_.largest_differential_growth, differential_growth);
 
@@ -160,12 +190,14 @@ double Organ::longestPart(const growth::Environment& environment) {
   double fastest_bend = 0.0;
   double total_turning = 0.0;
   double tip_speed = 0.0;
+  double fastest_stress = 0.0;  // that builds up where growth is held
   for (std::size_t j = 0; j < rod_.size(); ++j) {
     const double bend_rate = rod::voronoiMean(rod_, j, [this](std::size_t e) { return rates_[e]; });
     const double straightening = law.proprioception_length * growth::inverseRadius(rod_, j);
     const Eigen::Vector2d slope = drive_[j] - straightening * rod_.bends[j].rest_curvature.head<2>();
     const double turning = rod_.voronoiLength(j) * bend_rate * slope.norm();
     fastest_growth = std::max(fastest_growth, rates_[j]);
+    fastest_stress = std::max(fastest_stress, rates_[j] * rod_.elements[j].section.young_modulus);
     fastest_bend = std::max(fastest_bend, turning);
     total_turning += turning;
     tip_speed += rod_.elements[j].rest_length * rates_[j];
@@ -176,13 +208,18 @@ double Organ::longestPart(const growth::Environment& environment) {
   };
   double dt = longest(limits.growth_strain, fastest_growth);
   if (scenario_.elongation) dt = std::min(dt, longest(limits.tip_advance * scenario_.longest_element, tip_speed));
+  if (scenario_.stress_coupling) {
+    dt = std::min(dt, longest(limits.growth_stress * scenario_.stress_coupling->yield_margin, fastest_stress));
+  }
   dt = std::min(dt, longest(limits.bend_angle, fastest_bend));
   return std::min(dt, longest(limits.total_angle, total_turning));
 }
 
 std::vector<double> Organ::growthRates() const {
   std::vector<double> rates;
-  growth::elementRates(scenario_.profile, rod_, rates);
+  growth::GrowthFactors factors;
+  if (scenario_.stress_coupling) growth::stressFactors(*scenario_.stress_coupling, rod_, factors);
+  growth::elementRates(scenario_.profile, factors, rod_, rates);
   return rates;
 }
 

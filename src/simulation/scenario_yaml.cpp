@@ -44,6 +44,7 @@ void readLimits(YamlReader& in, StepLimits& limits) {
   const Range limit = above(0).orInfinity();
   limits.tip_advance = in.number("tip_advance", limit, limits.tip_advance);
   limits.growth_strain = in.number("growth_strain", limit, limits.growth_strain);
+  limits.growth_stress = in.number("growth_stress", limit, limits.growth_stress);
   limits.bend_angle = in.quantity("bend_angle", dimension::angle, limit, limits.bend_angle);
   limits.total_angle = in.quantity("total_angle", dimension::angle, limit, limits.total_angle);
   limits.smallest_part = in.number("smallest_part", above(0).upTo(1), limits.smallest_part);
@@ -126,7 +127,8 @@ OrganScenario readOrgan(YamlReader& in, RelaxationMethod relaxation, IdLines& id
   organ.elements = static_cast<std::size_t>(in.count("elements", 1, kMostElements));
   organ.section.radius = in.quantity("radius", dimension::length, above(0));
   in.section("material", kRequired, [&](YamlReader& material) { readMaterial(material, relaxation, organ.section); });
-  in.section("growth", kRequired, [&](YamlReader& growth) { readGrowth(growth, organ); });
+  in.section("growth", kRequired, [&](YamlReader& growth) { readGrowth(growth, relaxation, organ); });
+  in.section("aging", kOptional, [&](YamlReader& aging) { organ.aging = readAging(aging, relaxation); });
   in.section("sensitivities", kRequired,
              [&](YamlReader& sensitivities) { readSensitivities(sensitivities, organ.bending.sensitivities); });
   organ.bending.proprioception_length = in.quantity("proprioception_length", dimension::length, atLeast(0));

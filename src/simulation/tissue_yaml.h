@@ -10,8 +10,11 @@ namespace sensory_growth::simulation {
 /// The section "material" of an organ. Refuses what the relaxation cannot serve.
 void readMaterial(YamlReader& in, RelaxationMethod relaxation, rod::Section& section);
 
-/// The section "growth" of an organ: profile and elongation.
-void readGrowth(YamlReader& in, OrganScenario& organ);
+/// The section "growth" of an organ: profile, elongation and stress coupling. Expects the material to be read.
+void readGrowth(YamlReader& in, RelaxationMethod relaxation, OrganScenario& organ);
+
+/// The section "aging" of an organ.
+growth::Aging readAging(YamlReader& in, RelaxationMethod relaxation);
 
 /// The section "division" of an organ. Expects the length to be read.
 void readDivision(YamlReader& in, RelaxationMethod relaxation, OrganScenario& organ);

@@ -64,12 +64,15 @@ class Organ {
 
   mechanics::Energy energy() const { return mechanics::energy(rod_, loads_); }
 
-  /// Relative elongation rate of every element as the organ stands [1/s].
+  /// Relative elongation rate of every element as the organ stands, stress included [1/s].
   std::vector<double> growthRates() const;
 
  private:
   double longestPart(const growth::Environment& environment);
-  OrganFault growAndRelax(double dt, const growth::Environment& environment);
+  OrganFault growAndRelax(double dt, const growth::Environment& environment, const rod::Rod& before);
+  const growth::GrowthStrain& growthStrain(const rod::Rod& before, double dt);
+  void correctFactors(const rod::Rod& before, const growth::GrowthStrain& strain, double dt);
+  void growOlder(const rod::Rod& before, const growth::GrowthStrain& strain, double dt);
   OrganFault relax();
   OrganFault relaxInPassing();
   OrganFault move(double duration);
@@ -85,6 +88,9 @@ class Organ {
   mechanics::StaticEquilibrium equilibrium_;
   mechanics::DynamicRelaxation dynamics_;
   growth::Elongation elongation_;
+  growth::GrowthFactors factors_, new_factors_;
+  growth::GrowthStrain predicted_strain_, extra_strain_;
+  growth::Deposition deposition_;
   std::vector<Eigen::Vector2d> drive_, new_drive_;
   std::vector<double> rates_;
   OrganReport report_, report_before_step_;
