@@ -53,38 +53,37 @@ rod::Section agedSection(const Aging& aging, const rod::Section& young, double a
 }
 
 void growOlder(rod::Rod& rod, const rod::Rod& before, const Aging& aging, const rod::Section& young,
-               const GrowthStrain& strain, double fastest_rate, double dt) {
+               const GrowthStrain& strain, double fastest_rate, double dt, double share) {
   const bool counts_growth = aging.clock == AgingClock::maturation && fastest_rate > 0.0;
   for (std::size_t e = 0; e < rod.size(); ++e) {
     const double spent_growing = counts_growth ? strain.elements[e] / fastest_rate : 0.0;
     rod::Element& element = rod.elements[e];
-    element.age = before.elements[e].age + std::max(0.0, dt - spent_growing);
+    element.age = before.elements[e].age + share * std::max(0.0, dt - spent_growing);
     element.section = agedSection(aging, young, element.age);
   }
 }
 
 void Deposition::predict(rod::Rod& rod, const rod::Rod& before) {
-  predicted_.resize(rod.size());
   for (std::size_t e = 0; e < rod.size(); ++e) {
-    Deposit& deposit = predicted_[e];
-    deposit.strain = lostStretchCompliance(rod, before, e).cwiseProduct(force(before.elements[e]));
-    rod.elements[e].rest_strain += deposit.strain;
-    if (e < rod.firstBend()) continue;
-    deposit.curvature = lostCurvatureCompliance(rod, before, e).cwiseProduct(moment(before, e));
-    rod.bends[e].rest_curvature += deposit.curvature;
+    bringUpTo(lostCurvatureCompliance(rod, before, e).cwiseProduct(moment(before, e)),
+              lostStretchCompliance(rod, before, e).cwiseProduct(force(before.elements[e])), rod, e);
   }
 }
 
 void Deposition::correct(rod::Rod& rod, const rod::Rod& before) {
   for (std::size_t e = 0; e < rod.size(); ++e) {
-    const Deposit& deposit = predicted_[e];
-    const Vector3 mean_force = 0.5 * (force(before.elements[e]) + force(rod.elements[e]));
-    rod.elements[e].rest_strain += lostStretchCompliance(rod, before, e).cwiseProduct(mean_force) - deposit.strain;
-    if (e < rod.firstBend()) continue;
     const Vector3 mean_moment = 0.5 * (moment(before, e) + moment(rod, e));
-    rod.bends[e].rest_curvature +=
-        lostCurvatureCompliance(rod, before, e).cwiseProduct(mean_moment) - deposit.curvature;
+    const Vector3 mean_force = 0.5 * (force(before.elements[e]) + force(rod.elements[e]));
+    bringUpTo(lostCurvatureCompliance(rod, before, e).cwiseProduct(mean_moment),
+              lostStretchCompliance(rod, before, e).cwiseProduct(mean_force), rod, e);
   }
+}
+
+void Deposition::bringUpTo(const Vector3& curvature, const Vector3& strain, rod::Rod& rod, std::size_t e) {
+  Deposit& deposit = deposits_[e];
+  rod.elements[e].rest_strain += strain - deposit.strain;
+  if (e >= rod.firstBend()) rod.bends[e].rest_curvature += curvature - deposit.curvature;
+  deposit = {curvature, strain};
 }
 
 }  // namespace sensory_growth::growth

@@ -95,9 +95,12 @@ void Organ::undo() {
 OrganFault Organ::growAndRelax(double dt, const growth::Environment& environment, const rod::Rod& before) {
   const growth::GrowthStrain& strain = growthStrain(before, dt);
   if (scenario_.elongation) growth::elongate(rod_, strain);
+  // Half of the aging comes before the growth of the rest curvature and half after, so that neither sees the other
+  // late.
+  if (scenario_.aging) deposition_.begin(rod_.size());
+  growOlder(before, strain, dt, 0.5);
   growth::predict(rod_, scenario_.bending, strain, drive_);
-  growOlder(before, strain, dt);
-  if (scenario_.aging) deposition_.predict(rod_, before);
+  growOlder(before, strain, dt, 1.0);
   // Growth carries the rod along: left in place, it would be compressed and ring (model.md 11.1).
   rod_.rebuild();
   const bool moves = method_ == RelaxationMethod::continuous;
@@ -124,11 +127,12 @@ const growth::GrowthStrain& Organ::growthStrain(const rod::Rod& before, double d
                               : elongation_.strainAtFixedLength(before, rates_, dt);
 }
 
-/// The organ ages by the time that it has not spent growing.
-void Organ::growOlder(const rod::Rod& before, const growth::GrowthStrain& strain, double dt) {
+/// Ages the organ by a share of the time that it does not spend growing, as it stood before.
+void Organ::growOlder(const rod::Rod& before, const growth::GrowthStrain& strain, double dt, double share) {
   if (!scenario_.aging) return;
   growth::growOlder(rod_, before, *scenario_.aging, scenario_.section, strain, growth::largestRate(scenario_.profile),
-                    dt);
+                    dt, share);
+  deposition_.predict(rod_, before);
 }
 
 /// Grows by what the mean of the growth factors at the start and the end of the part adds to the predicted strain.
@@ -141,7 +145,7 @@ void Organ::correctFactors(const rod::Rod& before, const growth::GrowthStrain& s
   growth::difference(predicted_strain_, corrected, extra_strain_);
   if (scenario_.elongation) growth::elongate(rod_, extra_strain_);
   growth::predict(rod_, scenario_.bending, extra_strain_, new_drive_);
-  growOlder(before, corrected, dt);
+  growOlder(before, corrected, dt, 1.0);
 }
 
 OrganFault Organ::relax() {

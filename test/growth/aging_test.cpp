@@ -82,11 +82,18 @@ rod::Rod withOldSections(const rod::Rod& before, double stiffer) {
   return rod;
 }
 
+Deposition predictedDeposition(rod::Rod& rod, const rod::Rod& before) {
+  Deposition deposition;
+  deposition.begin(rod.size());
+  deposition.predict(rod, before);
+  return deposition;
+}
+
 TEST(Deposition, MixesTheRestStateWithTheShapeAtHand) {
   std::mt19937 generator(21);
   const rod::Rod before = support::randomRod(generator, 10);
   rod::Rod rod = withOldSections(before, 1.5);
-  Deposition().predict(rod, before);
+  predictedDeposition(rod, before);
   for (std::size_t j = 0; j < rod.size(); ++j) {
     const Vector3 old_b = mechanics::bendStiffness(before, j);
     const Vector3 new_b = mechanics::bendStiffness(rod, j);
@@ -110,8 +117,7 @@ TEST(Deposition, LeavesTheRestStateWhereTissueSoftens) {
   std::mt19937 generator(22);
   const rod::Rod before = support::randomRod(generator, 10);
   rod::Rod rod = withOldSections(before, 0.8);
-  Deposition deposition;
-  deposition.predict(rod, before);
+  Deposition deposition = predictedDeposition(rod, before);
   deposition.correct(rod, before);
   for (std::size_t j = 0; j < rod.size(); ++j) {
     EXPECT_EQ(rod.bends[j].rest_curvature, before.bends[j].rest_curvature);
@@ -125,8 +131,7 @@ TEST(Deposition, OfACorrectedStepTakesTheMeanMoment) {
   before.bends[0].curvature = {0.6, 0.0, 0.0};
   rod::Rod rod = before;
   rod.elements[0].section.young_modulus *= 4.0;
-  Deposition deposition;
-  deposition.predict(rod, before);
+  Deposition deposition = predictedDeposition(rod, before);
   EXPECT_NEAR(rod.bends[0].rest_curvature.x(), 0.75 * 0.6, 1e-14);
   rod.bends[0].curvature.x() = 0.45 + 0.25 * 1.0;  // where a moment of 1 holds it
   deposition.correct(rod, before);
@@ -150,7 +155,7 @@ class LoadedCantilever : public testing::TestWithParam<bool> {
   /// Largest way of a vertex when the rod has aged and relaxed again.
   double motion(double stiffer, bool deposits) {
     rod::Rod rod = withOldSections(rod_, stiffer);
-    if (deposits) Deposition().predict(rod, rod_);
+    if (deposits) predictedDeposition(rod, rod_);
     EXPECT_TRUE(equilibrium_.relax(rod, loads_).ok());
     double largest = 0.0;
     for (std::size_t v = 0; v < rod.vertices.size(); ++v) {

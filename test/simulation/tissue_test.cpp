@@ -58,7 +58,7 @@ double lengthUnderForce(double force, double sign, bool second_order = true) {
 }
 
 TEST(ForcedOrgan, GrowsByLockhartsFactor) {
-  for (const double force : {-1.5, -1.0, -0.4, 0.0, 0.5, 3.0}) {
+  for (const double force : {-1.5, -1.0, -0.4, 0.0, 0.5, 1.5}) {
     const double expected = std::exp(0.6 * std::max(0.0, 1.0 + force));
     EXPECT_NEAR(lengthUnderForce(force, 1.0), expected, 1e-10 * expected) << force;
     EXPECT_NEAR(lengthUnderForce(force, 1.0, false), expected, 1e-10 * expected) << force;
@@ -82,7 +82,7 @@ TEST(ForcedOrgan, BendsLessWhereItGrowsLess) {
   organ.bending.sensitivities.light_direction = 1e-6;
   scenario.protocol = {{0.0, {StimulusKind::light_direction, StimulusOperation::add, "sky", Vector3::UnitZ(), 1.0}}};
   const rod::Rod rod = grown(scenario, 10);
-  EXPECT_EQ(rod.restLength(), 1.0);
+  EXPECT_DOUBLE_EQ(rod.restLength(), 1.0);
   EXPECT_NEAR(rod.bends[10].rest_curvature.y(), 0.4 * 0.5 * 1e-6 / 0.05, 1e-11);
 }
 
@@ -103,7 +103,7 @@ double springError(double step, bool second_order) {
 }
 
 TEST(OrganAgainstASpring, GrowsAsTheLogisticEquation) {
-  EXPECT_NEAR(againstSpring(0.01, 1.0).restLength(), 1.463566, 1e-5);
+  EXPECT_NEAR(againstSpring(0.01, 1.0).restLength(), 1.463566, 2e-5);
   EXPECT_NEAR(againstSpring(0.1, 8.0).restLength(), 1.5, 1e-6);
 }
 
@@ -149,8 +149,8 @@ TEST(OrganAgainstAWall, ApproachesThePlateauOfItsForceAndStops) {
 }
 
 TEST(OrganAgainstAWall, IsSecondOrderInTime) {
-  EXPECT_NEAR(order(wallError(2e-4), wallError(1e-4)), 2.0, 0.2);
-  EXPECT_NEAR(order(wallError(1e-4), wallError(5e-5)), 2.0, 0.1);
+  EXPECT_NEAR(order(wallError(1e-4), wallError(5e-5)), 2.0, 0.15);
+  EXPECT_NEAR(order(wallError(5e-5), wallError(2.5e-5)), 2.0, 0.1);
 }
 
 TEST(OrganAgainstAWall, TakesStepsThatStressCannotOutrun) {
@@ -265,6 +265,10 @@ Vector3 agingTip(int steps, bool coupled, double proprioception_length) {
   organ.bending.proprioception_length = proprioception_length;
   organ.aging->young_modulus->mature = 3.0 * organ.section.young_modulus;
   if (coupled) {
+    // Leaning, so that all of it is pressed and neither the factor nor the clock comes to the bounds where they have
+    // kinks.
+    organ.base.frame = rod::exp({0.0, 0.4, 0.0});
+    organ.section = support::section(0.05, 1.0, 0.5);
     organ.aging->clock = growth::AgingClock::maturation;
     organ.stress_coupling = growth::StressCoupling{};
     organ.stress_coupling->yield_margin = 400.0;
@@ -300,20 +304,25 @@ TEST(AgingOrgan, AgesBehindItsGrowthZone) {
     const double from_apex = rod.restLength() - (s += element.rest_length) + 0.5 * element.rest_length;
     EXPECT_NEAR(element.age, std::clamp(from_apex - 1.0, 0.0, 1.5), 0.012) << from_apex;
   }
-  EXPECT_EQ(rod.elements.back().age, 0.0);
-  EXPECT_EQ(rod.elements.back().section.radius, 0.05);
+  EXPECT_NEAR(rod.elements.back().age, 0.0, 1e-12);
+  EXPECT_NEAR(rod.elements.back().section.radius, 0.05, 1e-12);
 }
 
-TEST(AgingOrgan, MovesAsTheStaticOneWhenItGrowsSlowly) {
-  Scenario scenario = agingScenario(0.1, true, true);
+/// Distance of the tips of a static organ and one that moves in time, which take the same steps.
+double lag(RelaxationMethod method, double step) {
+  Scenario scenario = agingScenario(step, true, true);
   scenario.organs.front().elements = 20;
   scenario.organs.front().section = support::section(0.05, 1.0, 1.0);
-  const rod::Rod still = grown(scenario, 10);
-  scenario.relaxation = RelaxationMethod::dynamics;
-  EXPECT_LT((tip(grown(scenario, 10)) - tip(still)).norm(), 1e-6);
-  scenario.relaxation = RelaxationMethod::continuous;
-  scenario.growth_per_second = 0.01;
-  EXPECT_LT((tip(grown(scenario, 10)) - tip(still)).norm(), 2e-3);
+  scenario.growth_per_second = 0.02;
+  const Vector3 still = tip(grown(scenario, std::lround(1.0 / step)));
+  scenario.relaxation = method;
+  return (tip(grown(scenario, std::lround(1.0 / step))) - still).norm();
+}
+
+TEST(AgingOrgan, MovesWithTheStiffnessAndMassOfItsAge) {
+  EXPECT_LT(lag(RelaxationMethod::dynamics, 0.1), 1e-6);
+  EXPECT_LT(lag(RelaxationMethod::continuous, 0.05), 1e-3);
+  EXPECT_LT(lag(RelaxationMethod::continuous, 0.025), 0.5 * lag(RelaxationMethod::continuous, 0.05));
 }
 
 // --- C5: kinematics of growth

@@ -72,7 +72,7 @@ class Organ {
   OrganFault growAndRelax(double dt, const growth::Environment& environment, const rod::Rod& before);
   const growth::GrowthStrain& growthStrain(const rod::Rod& before, double dt);
   void correctFactors(const rod::Rod& before, const growth::GrowthStrain& strain, double dt);
-  void growOlder(const rod::Rod& before, const growth::GrowthStrain& strain, double dt);
+  void growOlder(const rod::Rod& before, const growth::GrowthStrain& strain, double dt, double share);
   OrganFault relax();
   OrganFault relaxInPassing();
   OrganFault move(double duration);
