@@ -61,7 +61,8 @@ const OrganReport& Organ::advance(double dt, const growth::Environment& environm
   double longest_allowed = dt;
   while (remaining > 0.0) {
     if (longest_allowed < smallest) return giveUp(OrganFault::relaxation);
-    const double limit = std::min(longestPart(environment), longest_allowed);
+    const double time = environment.time + (dt - remaining);
+    const double limit = std::min(longestPart(environment, time), longest_allowed);
     if (!(limit >= smallest)) return giveUp(OrganFault::step_limits);
     // A remainder is cut into equal parts, so that none is a sliver.
     const double parts = std::max(1.0, std::ceil(remaining / limit * (1.0 - 1e-12)));
@@ -70,7 +71,7 @@ const OrganReport& Organ::advance(double dt, const growth::Environment& environm
     // The first part starts where the step does, and one part is the rule.
     rod::Rod& before_part = report_.substeps == 0 ? before_step_ : before_part_;
     if (report_.substeps > 0) before_part_ = rod_;
-    const OrganFault fault = growAndRelax(part, environment, before_part);
+    const OrganFault fault = growAndRelax(part, environment, time, before_part);
     if (fault == OrganFault::too_many_elements) return giveUp(fault);
     if (fault == OrganFault::none) {
       remaining = parts > 1.0 ? remaining - part : 0.0;
@@ -92,7 +93,7 @@ void Organ::undo() {
 
 /// Expects rates_, factors_ and drive_ at the start of the part, as longestPart() leaves them, and the rod as it was
 /// then.
-OrganFault Organ::growAndRelax(double dt, const growth::Environment& environment, const rod::Rod& before) {
+OrganFault Organ::growAndRelax(double dt, const growth::Environment& environment, double time, const rod::Rod& before) {
   const growth::GrowthStrain& strain = growthStrain(before, dt);
   if (scenario_.elongation) growth::elongate(rod_, strain);
   // Half of the aging comes before the growth of the rest curvature and half after, so that neither sees the other
@@ -108,7 +109,8 @@ OrganFault Organ::growAndRelax(double dt, const growth::Environment& environment
   if ((moves ? move(dt / growth_per_second_) : relax_predicted()) != OrganFault::none) return OrganFault::relaxation;
 
   if (stepping_.second_order) {
-    growth::drive(scenario_.bending, environment, rod_, new_drive_);
+    growth::sense(scenario_.senses, environment, time + dt, rod_, cues_);
+    growth::drive(rod_, cues_, new_drive_);
     growth::correct(rod_, scenario_.bending, strain, drive_, new_drive_);
     if (scenario_.stress_coupling) correctFactors(before, strain, dt);
     if (scenario_.aging) deposition_.correct(rod_, before);
@@ -182,12 +184,13 @@ OrganFault Organ::take(const mechanics::RelaxationReport& relaxation) {
 }
 
 /// Leaves the growth rates and the drive of the organ as it stands in rates_ and drive_.
-double Organ::longestPart(const growth::Environment& environment) {
+double Organ::longestPart(const growth::Environment& environment, double time) {
   const StepLimits& limits = stepping_.limits;
   const growth::BendingLaw& law = scenario_.bending;
   if (scenario_.stress_coupling) growth::stressFactors(*scenario_.stress_coupling, rod_, factors_);
   growth::elementRates(scenario_.profile, factors_, rod_, rates_);
-  const double differential_growth = growth::drive(law, environment, rod_, drive_);
+  growth::sense(scenario_.senses, environment, time, rod_, cues_);
+  const double differential_growth = growth::drive(rod_, cues_, drive_);
   report_.largest_differential_growth = std::max(report_.largest_differential_growth, differential_growth);
 
   double fastest_growth = 0.0;

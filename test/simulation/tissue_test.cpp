@@ -79,7 +79,7 @@ TEST(ForcedOrgan, BendsLessWhereItGrowsLess) {
   OrganScenario& organ = scenario.organs.front();
   organ.elongation = false;
   organ.loads.tip_force = {-0.6, 0.0, 0.0};
-  organ.bending.sensitivities.light_direction = 1e-6;
+  organ.senses.light_direction = 1e-6;
   scenario.protocol = {{0.0, {StimulusKind::light_direction, StimulusOperation::add, "sky", Vector3::UnitZ(), 1.0}}};
   const rod::Rod rod = grown(scenario, 10);
   EXPECT_DOUBLE_EQ(rod.restLength(), 1.0);
@@ -261,7 +261,7 @@ Vector3 agingTip(int steps, bool coupled, double proprioception_length) {
   OrganScenario& organ = scenario.organs.front();
   organ.section = support::section(0.05, 1.0, 1.5);
   organ.profile = growth::UniformProfile{1.0};
-  organ.bending.sensitivities.gravity = 0.15;
+  organ.senses.gravity = 0.15;
   organ.bending.proprioception_length = proprioception_length;
   organ.aging->young_modulus->mature = 3.0 * organ.section.young_modulus;
   if (coupled) {
@@ -391,7 +391,7 @@ Vector3 tipWithLimit(double tip_advance) {
   OrganScenario& organ = scenario.organs.front();
   organ.profile = growth::LogisticProfile{1.0, 0.6, 15.0};
   organ.longest_element = 0.1;  // no element grows that long
-  organ.bending.sensitivities.light_direction = 0.05;
+  organ.senses.light_direction = 0.05;
   organ.bending.proprioception_length = 0.01;
   return tip(grown(scenario, 1));
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "sensory_growth/growth/cues.h"
 #include "sensory_growth/growth/differential_growth.h"
 #include "sensory_growth/growth/elongation.h"
 #include "sensory_growth/mechanics/dynamics.h"
@@ -48,8 +49,8 @@ class Organ {
   /// fault.
   Organ(const OrganScenario& organ, const Scenario& scenario);
 
-  /// Advances by dt [s] of growth time in as many parts as the step limits ask for. On failure (report.ok() is false)
-  /// the organ is left as it was before the call.
+  /// Advances by dt [s] of growth time, from environment.time, in as many parts as the step limits ask for. On
+  /// failure (report.ok() is false) the organ is left as it was before the call.
   const OrganReport& advance(double dt, const growth::Environment& environment);
 
   /// Takes back the last advance(), its report included.
@@ -68,8 +69,8 @@ class Organ {
   std::vector<double> growthRates() const;
 
  private:
-  double longestPart(const growth::Environment& environment);
-  OrganFault growAndRelax(double dt, const growth::Environment& environment, const rod::Rod& before);
+  double longestPart(const growth::Environment& environment, double time);
+  OrganFault growAndRelax(double dt, const growth::Environment& environment, double time, const rod::Rod& before);
   const growth::GrowthStrain& growthStrain(const rod::Rod& before, double dt);
   void correctFactors(const rod::Rod& before, const growth::GrowthStrain& strain, double dt);
   void growOlder(const rod::Rod& before, const growth::GrowthStrain& strain, double dt, double share);
@@ -91,6 +92,7 @@ class Organ {
   growth::GrowthFactors factors_, new_factors_;
   growth::GrowthStrain predicted_strain_, extra_strain_;
   growth::Deposition deposition_;
+  growth::CueFields cues_;
   std::vector<Eigen::Vector2d> drive_, new_drive_;
   std::vector<double> rates_;
   OrganReport report_, report_before_step_;

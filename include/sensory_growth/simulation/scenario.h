@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sensory_growth/growth/aging.h"
+#include "sensory_growth/growth/cues.h"
 #include "sensory_growth/growth/differential_growth.h"
 #include "sensory_growth/growth/profile.h"
 #include "sensory_growth/growth/stress_coupling.h"
@@ -44,6 +45,7 @@ struct OrganScenario {
   growth::Profile profile = growth::UniformProfile{};
   bool elongation = true;  ///< off: the organ bends by growth but keeps its length (the AC model)
   std::optional<growth::StressCoupling> stress_coupling;  ///< of tissue that can stretch: not if inextensible
+  growth::Senses senses;
   growth::BendingLaw bending;
   std::optional<growth::Aging> aging;
 
