@@ -382,6 +382,36 @@ TEST(GrowthZone, StretchesTissueUntilItLeaves) {
   }
 }
 
+/// V18: a cue that is fixed to the tissue bends what is in the zone; the bend is carried out of it and divided.
+rod::Rod zoneWithMaterialCue(double step, double longest) {
+  Scenario scenario = kinematicScenario(step);
+  OrganScenario& organ = scenario.organs.front();
+  organ.length = 2.0;
+  organ.elements = static_cast<std::size_t>(std::lround(2.0 / longest));
+  organ.longest_element = longest * (1.0 + 1e-9);
+  organ.section.radius = 0.1;
+  organ.profile = growth::ApicalFlatProfile{1.0, 1.0};
+  organ.senses.oscillator.amplitude = 0.05;
+  organ.senses.oscillator.period = 1e12;
+  return grown(scenario, std::lround(3.0 / step));
+}
+
+TEST(GrowthZone, LeavesItsBendBehindAndDividesIt) {
+  const rod::Rod rod = zoneWithMaterialCue(0.02, 0.05);
+  EXPECT_NEAR(rod.restLength(), 5.0, 5e-4);
+  EXPECT_GT(rod.size(), 100u);
+  double turning = 0.5 * rod.elements.back().rest_length * rod.bends.back().rest_curvature.y();
+  double s = 0.0;
+  for (std::size_t j = 0; j < rod.size(); ++j) {
+    const double k2 = rod.bends[j].rest_curvature.y();
+    turning += rod.voronoiLength(j) * k2;
+    const double expected = 0.5 * std::clamp(4.0 - (rod.restLength() - s), 0.0, 3.0);
+    EXPECT_NEAR(k2, expected, 0.02) << j;  // of the kinks, which elements round off
+    s += rod.elements[j].rest_length;
+  }
+  EXPECT_NEAR(turning, 3.75, 5e-4);
+}
+
 /// Tip of an organ that bends towards a light, its parts limited by the way of the tip alone.
 Vector3 tipWithLimit(double tip_advance) {
   Scenario scenario = kinematicScenario(1.0, 50);
