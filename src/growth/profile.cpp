@@ -69,6 +69,11 @@ struct Velocities {
     kernels::profileKernels().softplus({u0, per_length, scale}, s.data(), s.size());
     for (double& v : s) v -= at_base;
   }
+  void operator()(const ApicalGaussianProfile& p) const {
+    const double a = steepness(p);
+    const double at_base = std::erfc(a * L);
+    for (double& v : s) v = p.rate * p.zone_length * (std::erfc(a * (L - v)) - at_base);
+  }
   template <typename Plain>
   void operator()(const Plain& p) const {
     for (double& v : s) v = Velocity{v, L}(p);

@@ -204,6 +204,28 @@ TEST(ColumnBetweenWalls, StopsBeforeItBucklesWhereTissueYieldsToLess) {
   EXPECT_NEAR(1.0 - 1.0 / rod.restLength(), 0.8 * M_PI * M_PI * 0.02 * 0.02, 1e-6);
 }
 
+// --- V23: a column that outgrows Greenhill's length
+// -------------------------------------------------------------------
+
+TEST(GrowingColumn, LosesItsStabilityAtGreenhillsLength) {
+  // B = w = 1, from length 0.5: 0.5 exp(t) = 7.837347439^(1/3) at 1.379447. The lowest eigenvalue crosses zero there.
+  Scenario scenario = kinematicScenario(0.0025, 100);
+  scenario.relaxation = RelaxationMethod::statics;
+  scenario.weight = true;
+  scenario.gravity = -Vector3::UnitZ();
+  OrganScenario& organ = scenario.organs.front();
+  organ.base.frame = rod::Quaternion::Identity();
+  organ.length = 0.5;
+  organ.section = support::inextensibleSection(1.0, 1.0);
+  Simulation simulation(scenario);
+  take(simulation, 549);
+  const double before = *simulation.organs().front().lowestEigenvalue();
+  take(simulation, 2);
+  const double now = *simulation.organs().front().lowestEigenvalue();
+  EXPECT_GT(now, 0.0);
+  EXPECT_NEAR(simulation.time() + 0.005 * now / (before - now), 1.379447, 1e-4);
+}
+
 // --- Aging
 // ------------------------------------------------------------------------------------------------------------
 
