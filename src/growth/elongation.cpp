@@ -1,15 +1,19 @@
 #include "sensory_growth/growth/elongation.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <functional>
 
 #include "kernels/profile_kernels.h"
 
 namespace sensory_growth::growth {
 namespace {
 
-/// Rates of n elements of given lengths: the difference of the velocities of their ends over their length.
+/// Rates of n elements of given lengths: the difference of the velocities of their ends over their length. What is left
+/// of a rate of zero is round-off, and growth is never negative.
 template <typename Length>
-void cellRates(const Profile& profile, std::size_t n, const Length& length, std::vector<double>& rates) {
+void cellRates(const Profile& profile, const GrowthFactors& factors, std::size_t n, const Length& length,
+               std::vector<double>& rates) {
   rates.resize(n);
   double s = 0.0;
   for (std::size_t e = 0; e < n; ++e) rates[e] = s += length(e);
@@ -17,9 +21,10 @@ void cellRates(const Profile& profile, std::size_t n, const Length& length, std:
   double below = 0.0;
   for (std::size_t e = 0; e < n; ++e) {
     const double above = rates[e];
-    rates[e] = (above - below) / length(e);
+    rates[e] = std::max(0.0, above - below) / length(e);
     below = above;
   }
+  for (std::size_t e = 0; e < factors.size(); ++e) rates[e] *= factors[e];
 }
 
 void restLengths(const rod::Rod& rod, std::vector<double>& lengths) {
@@ -29,13 +34,14 @@ void restLengths(const rod::Rod& rod, std::vector<double>& lengths) {
 
 }  // namespace
 
-void elementRates(const Profile& profile, const rod::Rod& rod, std::vector<double>& rates) {
+void elementRates(const Profile& profile, const GrowthFactors& factors, const rod::Rod& rod,
+                  std::vector<double>& rates) {
   const auto length = [&](std::size_t e) { return rod.elements[e].rest_length; };
-  cellRates(profile, rod.size(), length, rates);
+  cellRates(profile, factors, rod.size(), length, rates);
 }
 
-const GrowthStrain& Elongation::strain(const Profile& profile, const rod::Rod& rod, const std::vector<double>& rates,
-                                       double dt) {
+const GrowthStrain& Elongation::strain(const Profile& profile, const GrowthFactors& factors, const rod::Rod& rod,
+                                       const std::vector<double>& rates, double dt) {
   const std::size_t n = rod.size();
   restLengths(rod, initial_);
   stage_.resize(n);
@@ -49,7 +55,7 @@ const GrowthStrain& Elongation::strain(const Profile& profile, const rod::Rod& r
   const auto addStage = [&](const std::vector<double>& slope, double node, double weight) {
     loops.grow(initial_.data(), slope.data(), node * dt, stage_.data(), n);
     cellRates(
-        profile, n, [&](std::size_t e) { return stage_[e]; }, slope_);
+        profile, factors, n, [&](std::size_t e) { return stage_[e]; }, slope_);
     for (std::size_t e = 0; e < n; ++e) strain_.elements[e] += weight * dt * slope_[e];
   };
   addStage(rates, 0.5, 1.0 / 3.0);
@@ -74,6 +80,16 @@ const GrowthStrain& Elongation::strainAtFixedLength(const rod::Rod& rod, const s
     strain_.bends[e] = rod::voronoiMean(rod, e, [&](std::size_t k) { return dt * rates[k]; });
   }
   return strain_;
+}
+
+void difference(const GrowthStrain& before, const GrowthStrain& after, GrowthStrain& extra) {
+  const auto subtract = [](const std::vector<double>& a, const std::vector<double>& b, std::vector<double>& to) {
+    to.resize(a.size());
+    std::transform(a.begin(), a.end(), b.begin(), to.begin(), std::minus<double>());
+  };
+  subtract(after.elements, before.elements, extra.elements);
+  subtract(after.bends, before.bends, extra.bends);
+  extra.lengths = after.lengths;
 }
 
 void elongate(rod::Rod& rod, const GrowthStrain& strain, TwistTransport twist, std::vector<rod::Vector3>& drive) {

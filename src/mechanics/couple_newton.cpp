@@ -11,26 +11,30 @@ namespace {
 using rod::Matrix3;
 using rod::Vector3;
 
-/// The Newton step at the current frames. The couple, constant in the body, adds half its cross product to the Hessian
-/// of the last element: the matrix has no Cholesky factor, but an LU one.
-class CoupledStep {
+/// The Jacobian at the current frames. The couple, constant in the body, adds half its cross product to the Hessian of
+/// the last element: the matrix has no Cholesky factor, but an LU one.
+class CoupledJacobian {
  public:
-  TurnField find(const ReducedEnergy& energy) {
+  /// Factors it and eliminates minus the gradient.
+  void factor(const ReducedEnergy& energy) {
     energy.blocks(right_, diagonal_, upper_);
     const std::size_t n = energy.size();
+    first_ = energy.firstFree();
     diagonal_[n - 1] += 0.5 * rod::hat(energy.tipCouple());
     for (Vector3& w : right_) w = -w;
     pivots_.resize(n);
-    const std::size_t first = energy.firstFree();
-    for (std::size_t e = n; e-- > first;) {
+    for (std::size_t e = n; e-- > first_;) {
       pivots_[e].compute(diagonal_[e]);
       if (e == 0) break;
       const Matrix3 lower = upper_[e].transpose();
       diagonal_[e - 1] -= upper_[e] * pivots_[e].solve(lower);
       right_[e - 1] -= upper_[e] * pivots_[e].solve(right_[e]);
     }
-    TurnField step(n, Vector3::Zero());
-    for (std::size_t e = first; e < n; ++e) {
+  }
+
+  TurnField step() {
+    TurnField step(right_.size(), Vector3::Zero());
+    for (std::size_t e = first_; e < step.size(); ++e) {
       if (e > 0) right_[e] -= upper_[e].transpose() * step[e - 1];
       step[e] = pivots_[e].solve(right_[e]);
     }
@@ -38,6 +42,7 @@ class CoupledStep {
   }
 
  private:
+  std::size_t first_ = 0;
   TurnField right_;
   std::vector<Matrix3> diagonal_, upper_;
   std::vector<Eigen::PartialPivLU<Matrix3>> pivots_;
@@ -48,10 +53,11 @@ class CoupledStep {
 bool balanceCouple(ReducedEnergy& energy, double tolerance, double max_rotation, int& iterations) {
   constexpr int kMostIterations = 60;
   constexpr double kSmallestScale = 1e-4;
-  CoupledStep coupled;
+  CoupledJacobian jacobian;
   double residual = energy.evaluate().largest_gradient;
   for (int i = 0; i < kMostIterations && residual >= tolerance; ++i, ++iterations) {
-    energy.setStep(coupled.find(energy));
+    jacobian.factor(energy);
+    energy.setStep(jacobian.step());
     if (!std::isfinite(energy.largestTurn())) return false;
     double scale = std::min(1.0, max_rotation / energy.largestTurn());
     double there = energy.tryStep(scale).largest_gradient;

@@ -18,10 +18,12 @@ using rod::Vector3;
 using Evaluation = ReducedEnergy::Evaluation;
 
 constexpr double kArmijo = 1e-4;
-constexpr double kUnstable = 1e-9;     // of B / L: eigenvalues below minus this are unstable, model.md 12.4
-constexpr double kUnresolvable = 3.0;  // rad: near pi the rotation vector of a bend jumps
-constexpr double kClose = 0.1;         // rad: a first step up to this is taken without a look where it leads
-constexpr double kSmallStep = 1e-5;    // rad: the Hessian before such a step serves after it
+constexpr double kUnstable = 1e-9;        // of B / L: eigenvalues below minus this are unstable, model.md 12.4
+constexpr double kUnresolvable = 3.0;     // rad: near pi the rotation vector of a bend jumps
+constexpr double kClose = 0.1;            // rad: a first step up to this is taken without a look where it leads
+constexpr double kCloseToBalance = 1e-2;  // residual
+constexpr int kIterationsToCouple = 40;
+constexpr double kSmallStep = 1e-5;  // rad: the Hessian before such a step serves after it
 
 bool hasLengths(const rod::Rod& rod) {
   return std::all_of(rod.elements.begin(), rod.elements.end(),
@@ -188,17 +190,19 @@ RelaxationReport StaticEquilibrium::relaxAssigned(rod::Rod& rod, const Loads& lo
   } else {
     here = energy.evaluate();
   }
-  // A rod that turns the couple which bends it does not go down any energy. Where steps to the balance itself fail,
-  // those that lower the energy and count the work of the couple may still serve.
+  // A rod that turns the couple which bends it goes down no energy. Steps that lower the energy and count the work of
+  // the couple lead to the right balance, but slowly or not to its end; the last way is for steps to the balance
+  // itself.
+  const bool turns_a_couple = !loads.tip_couple.isZero(0.0);
+  bool may_balance = turns_a_couple;
+  int balance_from = kIterationsToCouple;
   const auto balance = [&] {
-    if (loads.tip_couple.isZero(0.0)) return;
     const double largest_gradient = tolerance * energy.coupleScale();
-    if (!balanceCouple(energy, largest_gradient, settings_.max_rotation, report.iterations)) {
-      energy.assignCurvature(rod);
-    }
+    const bool found = balanceCouple(energy, largest_gradient, settings_.max_rotation, report.iterations);
+    if (!found) energy.assignCurvature(rod);
     here = energy.evaluate();
+    return found;
   };
-  balance();
   while (true) {
     report.residual = here.largest_gradient / energy.coupleScale();
     report.largest_bend = here.largest_bend;
@@ -216,12 +220,18 @@ RelaxationReport StaticEquilibrium::relaxAssigned(rod::Rod& rod, const Loads& lo
       if (report.branch_switches == settings_.max_branch_switches) return stop(RelaxationReason::unstable);
       ++report.branch_switches;
       leaveUnstable(energy, rod, here);
-      balance();
+      may_balance = turns_a_couple;
+      balance_from = report.iterations + kIterationsToCouple;
       factor_is_fresh = false;
       continue;
     }
 
-    if (report.iterations == settings_.max_iterations) return stop(RelaxationReason::too_many_iterations);
+    const bool is_close_to_balance = may_balance && report.residual < kCloseToBalance && energy.findStep(0.0);
+    if (may_balance && (is_close_to_balance || report.iterations >= balance_from)) {
+      may_balance = false;
+      if (balance() || balance()) continue;
+    }
+    if (report.iterations >= settings_.max_iterations) return stop(RelaxationReason::too_many_iterations);
     ++report.iterations;
     if (!newton.findStep(energy, report.residual)) return stop(RelaxationReason::not_finite);
     const double taken = searchLine(energy, settings_.max_rotation, here);

@@ -102,13 +102,17 @@ void Organ::undo() {
   amplification_ = amplification_before_step_;
 }
 
-/// Expects rates_ and drive_ at the start of the part, as longestPart() leaves them.
+/// Expects rates_, factors_ and drive_ at the start of the part, as longestPart() leaves them.
 OrganFault Organ::growAndRelax(double dt, const growth::Environment& environment, double time) {
-  const growth::GrowthStrain& strain = scenario_.elongation ? elongation_.strain(scenario_.profile, rod_, rates_, dt)
-                                                            : elongation_.strainAtFixedLength(rod_, rates_, dt);
+  const growth::GrowthStrain& strain = growthStrain(dt);
   if (scenario_.elongation) growth::elongate(rod_, strain, scenario_.twist_transport, drive_);
   if (scenario_.bending.rotation) growth::turn(rod_, *scenario_.bending.rotation, rates_, dt, drive_);
+  // Half of the aging comes before the growth of the rest curvature and half after, so that neither sees the other
+  // late.
+  if (scenario_.aging) deposition_.begin(rod_.size());
+  growOlder(strain, dt, 0.5);
   growth::predict(rod_, scenario_.bending, strain, drive_);
+  growOlder(strain, dt, 1.0);
   const bool moves = method_ == RelaxationMethod::continuous;
   const auto relax_predicted = [&] { return stepping_.second_order ? relaxInPassing() : relax(); };
   if ((moves ? move(dt / growth_per_second_) : relax_predicted()) != OrganFault::none) return OrganFault::relaxation;
@@ -117,6 +121,8 @@ OrganFault Organ::growAndRelax(double dt, const growth::Environment& environment
     perception_.expect(scenario_.senses, environment, time + dt, rod_, cues_);
     growth::drive(rod_, scenario_.bending, cues_, new_drive_);
     growth::correct(rod_, scenario_.bending, strain, drive_, new_drive_);
+    if (scenario_.stress_coupling) correctFactors(strain, dt);
+    if (scenario_.aging) deposition_.correct(rod_, beforePart());
     if (moves) rod_.rebuild();
     if (!moves && relaxCorrected() != OrganFault::none) return OrganFault::relaxation;
   }
@@ -126,6 +132,32 @@ OrganFault Organ::growAndRelax(double dt, const growth::Environment& environment
   report_.divisions += divisions;
   if (rod_.size() > kMostElements) return OrganFault::too_many_elements;
   return divisions == 0 || moves ? OrganFault::none : relax();
+}
+
+const growth::GrowthStrain& Organ::growthStrain(double dt) {
+  return scenario_.elongation ? elongation_.strain(scenario_.profile, factors_, beforePart(), rates_, dt)
+                              : elongation_.strainAtFixedLength(beforePart(), rates_, dt);
+}
+
+/// Ages the organ by a share of the time that it does not spend growing, as it stood before.
+void Organ::growOlder(const growth::GrowthStrain& strain, double dt, double share) {
+  if (!scenario_.aging) return;
+  growth::growOlder(rod_, beforePart(), *scenario_.aging, scenario_.section, strain,
+                    growth::largestRate(scenario_.profile), dt, share);
+  deposition_.predict(rod_, beforePart());
+}
+
+/// Grows by what the mean of the growth factors at the start and the end of the part adds to the predicted strain.
+void Organ::correctFactors(const growth::GrowthStrain& strain, double dt) {
+  predicted_strain_ = strain;
+  growth::stressFactors(*scenario_.stress_coupling, rod_, new_factors_);
+  for (std::size_t e = 0; e < factors_.size(); ++e) factors_[e] = 0.5 * (factors_[e] + new_factors_[e]);
+  growth::elementRates(scenario_.profile, factors_, beforePart(), rates_);
+  const growth::GrowthStrain& corrected = growthStrain(dt);
+  growth::difference(predicted_strain_, corrected, extra_strain_);
+  if (scenario_.elongation) growth::elongate(rod_, extra_strain_, scenario_.twist_transport, new_drive_);
+  growth::predict(rod_, scenario_.bending, extra_strain_, new_drive_);
+  growOlder(corrected, dt, 1.0);
 }
 
 OrganFault Organ::relax() {
@@ -147,7 +179,9 @@ OrganFault Organ::relaxInPassing() {
 }
 
 OrganFault Organ::relaxCorrected() {
-  return method_ == RelaxationMethod::statics ? take(equilibrium_.relaxCorrected(rod_, loads_)) : relax();
+  const bool only_curvature_was_corrected = !scenario_.stress_coupling && !scenario_.aging;
+  if (method_ != RelaxationMethod::statics || !only_curvature_was_corrected) return relax();
+  return take(equilibrium_.relaxCorrected(rod_, loads_));
 }
 
 std::optional<double> Organ::lowestEigenvalue() const {
@@ -169,7 +203,8 @@ OrganFault Organ::take(const mechanics::RelaxationReport& relaxation) {
 double Organ::longestPart(const growth::Environment& environment, double time) {
   const StepLimits& limits = stepping_.limits;
   const growth::BendingLaw& law = scenario_.bending;
-  growth::elementRates(scenario_.profile, rod_, rates_);
+  if (scenario_.stress_coupling) growth::stressFactors(*scenario_.stress_coupling, rod_, factors_);
+  growth::elementRates(scenario_.profile, factors_, rod_, rates_);
   perception_.remember(scenario_.senses, environment, time, rod_, cues_);
   const double differential_growth = growth::drive(rod_, law, cues_, drive_);
   report_.largest_differential_growth = std::max(report_.largest_differential_growth, differential_growth);
@@ -179,12 +214,14 @@ double Organ::longestPart(const growth::Environment& environment, double time) {
   double fastest_bend = 0.0;
   double total_turning = 0.0;
   double tip_speed = 0.0;
+  double fastest_stress = 0.0;  // that builds up where growth is held
   for (std::size_t j = 0; j < rod_.size(); ++j) {
     const double growth_rate = rod::voronoiMean(rod_, j, [this](std::size_t e) { return rates_[e]; });
     double bending = growth_rate * growth::bendingRate(rod_, law, drive_, j).norm();
     if (growth_rate > 0.0) bending += rotation * rod_.bends[j].rest_curvature.head<2>().norm();
     const double turning = rod_.voronoiLength(j) * bending;
     fastest_growth = std::max(fastest_growth, rates_[j]);
+    fastest_stress = std::max(fastest_stress, rates_[j] * rod_.elements[j].section.young_modulus);
     fastest_bend = std::max(fastest_bend, turning);
     total_turning += turning;
     tip_speed += rod_.elements[j].rest_length * rates_[j];
@@ -199,6 +236,9 @@ double Organ::longestPart(const growth::Environment& environment, double time) {
     dt = std::min(dt, limits.oscillation * std::abs(scenario_.senses.oscillator.period));
   }
   if (law.rotation) dt = std::min(dt, limits.oscillation * std::abs(law.rotation->period));
+  if (scenario_.stress_coupling) {
+    dt = std::min(dt, longest(limits.growth_stress * scenario_.stress_coupling->yield_margin, fastest_stress));
+  }
   dt = std::min(dt, longest(limits.bend_angle, amplification_ * fastest_bend));
   return std::min(dt, longest(limits.total_angle, amplification_ * total_turning));
 }
@@ -228,7 +268,9 @@ growth::CueFields Organ::cues(const growth::Environment& environment) const {
 
 std::vector<double> Organ::growthRates() const {
   std::vector<double> rates;
-  growth::elementRates(scenario_.profile, rod_, rates);
+  growth::GrowthFactors factors;
+  if (scenario_.stress_coupling) growth::stressFactors(*scenario_.stress_coupling, rod_, factors);
+  growth::elementRates(scenario_.profile, factors, rod_, rates);
   return rates;
 }
 

@@ -13,6 +13,7 @@
 #include "senses_yaml.h"
 #include "sensing_yaml.h"
 #include "sensory_growth/simulation/yaml_reader.h"
+#include "tissue_yaml.h"
 
 namespace sensory_growth::simulation {
 namespace {
@@ -45,6 +46,7 @@ void readLimits(YamlReader& in, StepLimits& limits) {
   const Range limit = above(0).orInfinity();
   limits.tip_advance = in.number("tip_advance", limit, limits.tip_advance);
   limits.growth_strain = in.number("growth_strain", limit, limits.growth_strain);
+  limits.growth_stress = in.number("growth_stress", limit, limits.growth_stress);
   limits.bend_angle = in.quantity("bend_angle", dimension::angle, limit, limits.bend_angle);
   limits.total_angle = in.quantity("total_angle", dimension::angle, limit, limits.total_angle);
   limits.oscillation = in.number("oscillation", limit, limits.oscillation);
@@ -111,67 +113,6 @@ void readRelaxation(YamlReader& in, Scenario& scenario) {
   }
 }
 
-void readMaterial(YamlReader& in, RelaxationMethod relaxation, rod::Section& section) {
-  section.young_modulus = in.quantity("young_modulus", dimension::modulus, above(0));
-  enum class Given { poisson_ratio, shear_modulus };
-  const auto given =
-      in.exactlyOneOf<Given>({{"poisson_ratio", Given::poisson_ratio}, {"shear_modulus", Given::shear_modulus}});
-  if (given == Given::poisson_ratio) {
-    section.shear_modulus = section.young_modulus / (2.0 * (1.0 + in.number("poisson_ratio", above(-1).upTo(0.5))));
-  } else if (given == Given::shear_modulus) {
-    section.shear_modulus = in.quantity("shear_modulus", dimension::modulus, above(0));
-  }
-  section.density = in.quantity("density", dimension::density, above(0));
-  section.shear_correction = in.number("shear_correction", above(0).upTo(1), section.shear_correction);
-  section.inextensible = in.flag("inextensible", section.inextensible);
-  const bool in_time = relaxation == RelaxationMethod::dynamics || relaxation == RelaxationMethod::continuous;
-  if (section.inextensible && in_time) {
-    in.addProblem("inextensible", "'true' needs static relaxation: no time step is short enough for it; give false");
-  }
-}
-
-double readRate(YamlReader& in) { return in.quantity("rate", dimension::rate, atLeast(0)); }
-double readZoneLength(YamlReader& in) { return in.quantity("zone_length", dimension::length, above(0)); }
-
-growth::Profile readLogistic(YamlReader& in) {
-  return growth::LogisticProfile{readRate(in), readZoneLength(in), in.number("steepness", above(0))};
-}
-
-growth::Profile readUniform(YamlReader& in) { return growth::UniformProfile{readRate(in)}; }
-
-growth::Profile readApicalFlat(YamlReader& in) { return growth::ApicalFlatProfile{readRate(in), readZoneLength(in)}; }
-
-void readGrowth(YamlReader& in, OrganScenario& organ) {
-  organ.elongation = in.flag("elongation", organ.elongation);
-  using growth::TwistTransport;
-  organ.twist_transport =
-      in.choice<TwistTransport>("twist_transport", {{"angle", TwistTransport::angle}, {"rate", TwistTransport::rate}},
-                                organ.twist_transport)
-          .value_or(organ.twist_transport);
-  using ReadProfile = growth::Profile (*)(YamlReader&);
-  const auto read = in.choice<ReadProfile>(
-      "profile", {{"logistic", readLogistic}, {"uniform", readUniform}, {"apical_flat", readApicalFlat}});
-  if (!read) return in.ignoreOtherKeys();
-  organ.profile = (*read)(in);
-}
-
-void readDivision(YamlReader& in, RelaxationMethod relaxation, OrganScenario& organ) {
-  organ.longest_element = in.quantity("longest_element", dimension::length, above(0).orInfinity());
-  if (organ.length / organ.longest_element > kMostElements) {
-    in.addProblem("longest_element", "would divide the organ into more than " + std::to_string(kMostElements) +
-                                         " elements; give a longer one");
-  }
-  const auto mode = in.choice<rod::DivisionMode>(
-      "mode", {{"keep_strain", rod::DivisionMode::keep_strain}, {"keep_positions", rod::DivisionMode::keep_positions}},
-      organ.division);
-  if (!mode) return;
-  organ.division = *mode;
-  if (mode == rod::DivisionMode::keep_positions && relaxation == RelaxationMethod::kinematics) {
-    in.addProblem(
-        "mode", "'keep_positions' leaves a strain defect that kinematic relaxation never removes; give 'keep_strain'");
-  }
-}
-
 OrganScenario readOrgan(YamlReader& in, RelaxationMethod relaxation, IdLines& ids) {
   OrganScenario organ;
   organ.id = readId(in, ids);
@@ -180,7 +121,8 @@ OrganScenario readOrgan(YamlReader& in, RelaxationMethod relaxation, IdLines& id
   organ.elements = static_cast<std::size_t>(in.count("elements", 1, kMostElements));
   organ.section.radius = in.quantity("radius", dimension::length, above(0));
   in.section("material", kRequired, [&](YamlReader& material) { readMaterial(material, relaxation, organ.section); });
-  in.section("growth", kRequired, [&](YamlReader& growth) { readGrowth(growth, organ); });
+  in.section("growth", kRequired, [&](YamlReader& growth) { readGrowth(growth, relaxation, organ); });
+  in.section("aging", kOptional, [&](YamlReader& aging) { organ.aging = readAging(aging, relaxation); });
   readSenses(in, organ);
   organ.sensing = readSensing(in);
   in.section("division", kRequired, [&](YamlReader& division) { readDivision(division, relaxation, organ); });

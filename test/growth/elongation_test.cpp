@@ -21,8 +21,8 @@ rod::Rod organ(double length, std::size_t elements = 20) {
 
 const GrowthStrain& strainOf(Elongation& elongation, const Profile& profile, const rod::Rod& rod, double dt) {
   std::vector<double> rates;
-  elementRates(profile, rod, rates);
-  return elongation.strain(profile, rod, rates, dt);
+  elementRates(profile, {}, rod, rates);
+  return elongation.strain(profile, {}, rod, rates, dt);
 }
 
 /// Of a rod that nothing drives to twist.
@@ -71,6 +71,38 @@ TEST(FlatGrowth, ReachesTheReferenceLengths) {
   const Profile profile = ApicalFlatProfile{1.0, 1.0};  // V12c
   EXPECT_NEAR(grownLength(profile, 0.5, 2.0, 0.01), 2.306852819, 1e-3);
   EXPECT_NEAR(grownLength(profile, 2.0, 2.0, 0.01), 4.0, 1e-3);
+}
+
+TEST(GaussianGrowth, ReachesTheReferenceLengths) {
+  const Profile profile = ApicalGaussianProfile{1.0, 1.0};  // V12c
+  EXPECT_NEAR(grownLength(profile, 0.5, 2.0, 0.1), 2.118630353, 1e-6);
+  EXPECT_NEAR(grownLength(profile, 2.0, 2.0, 0.1), 3.996846930, 1e-6);
+}
+
+TEST(SampledGrowth, OfAFlatZoneThatEndsInARampIsItsOwnIntegral) {
+  // Rate 1 within 1 of the apex, falling to 0 at 2. Up to length 1 growth is exponential; then with x = 2 - L,
+  // dx/dt = -(3 - x^2) / 2, x = sqrt(3) tanh(c - sqrt(3) t / 2); beyond length 2 the organ grows by 1.5 per unit time.
+  const Profile profile = SampledProfile({0.0, 1.0, 2.0}, {1.0, 1.0, 0.0});
+  const double r = std::sqrt(3.0);
+  const double until_one = std::log(2.0);
+  const double until_two = until_one + 2.0 / r * std::atanh(1.0 / r);
+  EXPECT_NEAR(grownLength(profile, 0.5, until_one, until_one / 10), 1.0, 1e-9);
+  EXPECT_NEAR(grownLength(profile, 0.5, until_two, until_two / 400), 2.0, 1e-5);
+  EXPECT_NEAR(grownLength(profile, 2.0, 2.0, 0.1), 5.0, 1e-5);
+}
+
+TEST(Growth, FactorsMultiplyTheRateInEveryStage) {
+  // Uniform growth by exp(factor rate dt) in each element, for any step.
+  rod::Rod rod = organ(1.0, 4);
+  const GrowthFactors factors = {0.0, 0.5, 1.0, 2.0};
+  Elongation elongation;
+  std::vector<double> rates;
+  elementRates(UniformProfile{1.0}, factors, rod, rates);
+  std::vector<rod::Vector3> no_drive(4, rod::Vector3::Zero());
+  elongate(rod, elongation.strain(UniformProfile{1.0}, factors, rod, rates, 0.7), TwistTransport::angle, no_drive);
+  for (std::size_t e = 0; e < 4; ++e) {
+    EXPECT_NEAR(rod.elements[e].rest_length, 0.25 * std::exp(0.7 * factors[e]), 1e-14) << e;
+  }
 }
 
 TEST(Growth, CarriesBendingCurvatureAndTwistAngle) {
@@ -144,7 +176,7 @@ TEST(Growth, StrainAtFixedLengthIsTheLengthWeightedMeanOfTheRates) {
   const Profile profile = ApicalFlatProfile{2.0, 0.37};
   Elongation elongation;
   std::vector<double> rates;
-  elementRates(profile, rod, rates);
+  elementRates(profile, {}, rod, rates);
   const GrowthStrain held = elongation.strainAtFixedLength(rod, rates, 0.3);
   const double L = rod.restLength();
   double s = 0.0;
@@ -167,7 +199,7 @@ TEST(Growth, TheWholeOrganElongatesAtTheVelocityOfItsApex) {
   const rod::Rod rod = support::randomRod(generator, 10);
   const Profile profile = LogisticProfile{0.9, 0.3, 15.0};
   std::vector<double> rates;
-  elementRates(profile, rod, rates);
+  elementRates(profile, {}, rod, rates);
   double speed = 0.0;
   for (std::size_t e = 0; e < rod.size(); ++e) speed += rates[e] * rod.elements[e].rest_length;
   EXPECT_NEAR(speed, velocity(profile, rod.restLength(), rod.restLength()), 1e-13);

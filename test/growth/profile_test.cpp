@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -29,17 +31,24 @@ double smoothQuadrature(const Profile& profile, double a, double b, double L) {
   return sum;
 }
 
-/// The same over [0, s], split where an apical zone of length `zone` begins.
-double quadrature(const Profile& profile, double s, double L, double zone) {
-  const double split = std::clamp(L - zone, 0.0, s);
-  return smoothQuadrature(profile, 0.0, split, L) + smoothQuadrature(profile, split, s, L);
-}
-
 struct Case {
   std::string name;
   Profile profile;
   double largest_rate;
+  std::vector<double> kinks;  ///< distances from the apex at which the rate is not smooth, decreasing
 };
+
+/// The same over [0, s], split at the kinks.
+double quadrature(const Case& of, double s, double L) {
+  double sum = 0.0;
+  double from = 0.0;
+  for (const double kink : of.kinks) {
+    const double to = std::clamp(L - kink, from, s);
+    sum += smoothQuadrature(of.profile, from, to, L);
+    from = to;
+  }
+  return sum + smoothQuadrature(of.profile, from, s, L);
+}
 
 class AnyProfile : public testing::TestWithParam<Case> {};
 
@@ -48,7 +57,7 @@ TEST_P(AnyProfile, VelocityIsTheIntegralOfTheRate) {
   for (const double L : {0.25, 1.0, 2.5, 10.0}) {
     for (const double fraction : {0.1, 0.5, 1.0}) {
       const double s = fraction * L;
-      EXPECT_NEAR(velocity(profile, s, L), quadrature(profile, s, L, 2.0), 1e-13 * (1.0 + s))
+      EXPECT_NEAR(velocity(profile, s, L), quadrature(GetParam(), s, L), 1e-13 * (1.0 + s))
           << "s = " << s << ", L = " << L;
     }
   }
@@ -83,12 +92,19 @@ TEST_P(AnyProfile, RateIsNeverNegativeNorAboveItsMaximum) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Profiles, AnyProfile,
-                         testing::Values(Case{"Logistic", LogisticProfile{1.0, 2.0, 15.0}, 1.0},
-                                         Case{"SoftLogistic", LogisticProfile{0.7, 1.0, 5.0}, 0.7},
-                                         Case{"Uniform", UniformProfile{1.3}, 1.3},
-                                         Case{"ApicalFlat", ApicalFlatProfile{1.0, 2.0}, 1.0}),
-                         [](const auto& info) { return info.param.name; });
+TEST_P(AnyProfile, KnowsItsLargestRate) { EXPECT_EQ(largestRate(GetParam().profile), GetParam().largest_rate); }
+
+INSTANTIATE_TEST_SUITE_P(
+    Profiles, AnyProfile,
+    testing::Values(Case{"Logistic", LogisticProfile{1.0, 2.0, 15.0}, 1.0, {}},
+                    Case{"SoftLogistic", LogisticProfile{0.7, 1.0, 5.0}, 0.7, {}},
+                    Case{"Uniform", UniformProfile{1.3}, 1.3, {}},
+                    Case{"ApicalFlat", ApicalFlatProfile{1.0, 2.0}, 1.0, {2.0}},
+                    Case{"ApicalGaussian", ApicalGaussianProfile{0.8, 1.5}, 0.8, {}},
+                    Case{"Sampled", SampledProfile({0.0, 0.5, 2.0, 3.0}, {0.4, 0.9, 0.2, 0.0}), 0.9, {3.0, 2.0, 0.5}},
+                    Case{"SampledWithoutEnd", SampledProfile({0.0, 1.0}, {0.4, 0.1}), 0.4, {1.0}},
+                    Case{"SampledOnce", SampledProfile({0.0}, {0.3}), 0.3, {}}),
+    [](const auto& info) { return info.param.name; });
 
 TEST(LogisticProfile, GrowsAtTheApexAndNotAtTheBase) {
   const Profile profile = LogisticProfile{1.0, 2.0, 15.0};
@@ -113,6 +129,45 @@ TEST(LogisticProfile, DoesNotOverflow) {
   const Profile profile = LogisticProfile{1.0, 1.0, 15.0};
   EXPECT_NEAR(velocity(profile, 1e4, 1e4), 1.0, 1e-6);
   EXPECT_EQ(rate(profile, 0.0, 1e4), 0.0);
+}
+
+TEST(ApicalGaussianProfile, IsTheBellOfTheModel) {
+  const double zone = 0.7;
+  const double w = zone * std::sqrt(2.0 / M_PI);  // model.md 2
+  const Profile profile = ApicalGaussianProfile{1.2, zone};
+  EXPECT_EQ(rate(profile, 10.0, 10.0), 1.2);
+  EXPECT_NEAR(rate(profile, 10.0 - w, 10.0), 1.2 * std::exp(-0.5), 1e-14);
+  EXPECT_NEAR(rate(profile, 10.0 - 3.0 * w, 10.0), 1.2 * std::exp(-4.5), 1e-14);
+  EXPECT_NEAR(velocity(profile, 50.0, 50.0), 1.2 * zone, 1e-14);
+}
+
+TEST(ApicalGaussianProfile, KeepsItsDigitsFarFromTheApex) {
+  const Profile profile = ApicalGaussianProfile{1.0, 1.0};
+  std::vector<double> v = {1.0, 1.1};
+  velocities(profile, 10.0, v);
+  // exp(-pi/4 d^2) integrated over d from 8.9 to 9.0 by Simpson's rule with 2000 panels.
+  EXPECT_NEAR((v[1] - v[0]) / 5.157064174275e-29, 1.0, 1e-12);
+}
+
+TEST(SampledProfile, IsLinearBetweenItsSamplesAndHoldsTheLast) {
+  const Profile profile = SampledProfile({0.0, 1.0, 3.0}, {0.2, 0.6, 0.1});
+  EXPECT_DOUBLE_EQ(rate(profile, 10.0, 10.0), 0.2);
+  EXPECT_DOUBLE_EQ(rate(profile, 9.5, 10.0), 0.4);
+  EXPECT_DOUBLE_EQ(rate(profile, 8.0, 10.0), 0.35);
+  EXPECT_DOUBLE_EQ(rate(profile, 2.0, 10.0), 0.1);
+  EXPECT_DOUBLE_EQ(velocity(profile, 10.0, 10.0), 0.4 + 0.7 + 0.7);
+  EXPECT_DOUBLE_EQ(velocity(profile, 0.5, 0.5), 0.5 * 0.5 * (0.2 + 0.4));  // shorter than its zone
+}
+
+TEST(SampledProfile, RefusesSamplesThatMakeNoSense) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(SampledProfile({}, {}), std::invalid_argument);
+  EXPECT_THROW(SampledProfile({0.0, 1.0}, {1.0}), std::invalid_argument);
+  EXPECT_THROW(SampledProfile({0.1, 1.0}, {1.0, 1.0}), std::invalid_argument);
+  EXPECT_THROW(SampledProfile({0.0, 1.0, 1.0}, {1.0, 1.0, 1.0}), std::invalid_argument);
+  EXPECT_THROW(SampledProfile({0.0, 1.0}, {1.0, -0.1}), std::invalid_argument);
+  EXPECT_THROW(SampledProfile({0.0, 1.0}, {nan, 1.0}), std::invalid_argument);
+  EXPECT_THROW(SampledProfile({0.0, nan}, {1.0, 1.0}), std::invalid_argument);
 }
 
 }  // namespace

@@ -75,6 +75,20 @@ TEST(Allocations, AreNotNeededByASteadyStepInEquilibrium) {
   EXPECT_EQ(simulation.organs().front().report().divisions, 0u);
 }
 
+TEST(Allocations, AreNotNeededByAStepOfAgingTissueUnderStress) {
+  Scenario scenario = shoot(RelaxationMethod::statics).scenario();
+  OrganScenario& organ = scenario.organs.front();
+  organ.profile = growth::SampledProfile({0.0, 0.2, 0.4}, {1.0, 0.5, 0.0});
+  organ.stress_coupling = growth::StressCoupling{};
+  organ.stress_coupling->yield_margin = 1e3;
+  organ.aging = growth::Aging{};
+  organ.aging->young_modulus = growth::Maturation{2.0 * organ.section.young_modulus, 1.0};
+  organ.aging->radius = growth::Maturation{0.04, 1.0};
+  Simulation simulation(scenario);
+  EXPECT_EQ(allocationsOfSteadySteps(simulation), 0);
+  EXPECT_GT(simulation.organs().front().rod().elements.front().section.radius, 0.03);
+}
+
 TEST(Allocations, AreNotNeededByASteadyKinematicStep) {
   Simulation simulation = shoot(RelaxationMethod::kinematics);
   EXPECT_EQ(allocationsOfSteadySteps(simulation), 0);

@@ -515,9 +515,10 @@ INSTANTIATE_TEST_SUITE_P(
         Spoilt{"tip_force:", "tip_froce:", "organs[0].tip_froce", "did you mean 'tip_force'\\?$"},
         Spoilt{"tip_force:", "colour: green\n    tip_force:", "organs[0].colour",
                "^is an unknown key; known here are 'id', 'base', .* and 'rest_curvature'$"},
-        Spoilt{
-            "zone_length: 10 mm", "zone_length: 10 mm, steepness: 15", "organs[0].growth.steepness",
-            "^is an unknown key; known here are 'elongation', 'twist_transport', 'profile', 'rate' and 'zone_length'$"},
+        Spoilt{"zone_length: 10 mm", "zone_length: 10 mm, steepness: 15", "organs[0].growth.steepness",
+               "^is an unknown key; known here are 'elongation', 'twist_transport', 'stress_coupling', 'profile', "
+               "'rate' and "
+               "'zone_length'$"},
         Spoilt{"roll: 0 deg", "roll: 0 deg, roll: 1 deg", "organs[0].base.roll", "^is given twice, first on line 11$"},
         Spoilt{"name: one_organ", "description: nameless", "name", "^is missing; give a letter followed by"},
         Spoilt{"duration: 8 h", "? [a, b]\n: 8 h", "", "has a key that is a sequence; keys are plain words"}));
@@ -531,7 +532,8 @@ INSTANTIATE_TEST_SUITE_P(
                "^is missing; give an elastic modulus"},
         Spoilt{", density: 1000 kg/m^3", "", "organs[0].material.density", "^is missing"},
         Spoilt{"poisson_ratio: 0.5, ", "", "organs[0].material", "needs exactly one of 'poisson_ratio' and 'shear_mod"},
-        Spoilt{"profile: apical_flat, ", "", "organs[0].growth.profile", "^is missing; give 'logistic', 'uniform' or"},
+        Spoilt{"profile: apical_flat, ", "", "organs[0].growth.profile",
+               "^is missing; give 'logistic', 'uniform', 'apical_flat', 'apical_gaussian' or"},
         Spoilt{", zone_length: 10 mm", "", "organs[0].growth.zone_length", "^is missing; give a length"},
         Spoilt{"gravity: 0.1, ", "", "organs[0].sensitivities.gravity", "^is missing; give a number without a unit$"},
         Spoilt{"softening_length: 1 mm, ", "", "organs[0].sensitivities.softening_length", "^is missing"},
@@ -555,7 +557,8 @@ INSTANTIATE_TEST_SUITE_P(
         Spoilt{"{method: static, max_iterations: 100}", "", "relaxation", "^is empty; give a mapping"},
         Spoilt{"method: static", "method: elastic", "relaxation.method",
                "^'elastic' is not known; give 'static', 'dynamic', 'continuous' or 'kinematic'$"},
-        Spoilt{"profile: apical_flat", "profile: apical", "organs[0].growth.profile", "give 'logistic', 'uniform' or"},
+        Spoilt{"profile: apical_flat", "profile: apical", "organs[0].growth.profile",
+               "give 'logistic', 'uniform', 'apical_flat', 'apical_gaussian' or"},
         Spoilt{"mode: keep_strain", "mode: keep", "organs[0].division.mode", "'keep_strain' or 'keep_positions'$"},
         Spoilt{"[0 mm, 0 mm, 0 mm]", "[0 mm, 0 mm]", "organs[0].base.position", "^has 2 components; give a sequence"},
         Spoilt{"[0 mm, 0 mm, 0 mm]", "0 mm", "organs[0].base.position",
@@ -761,6 +764,7 @@ TEST(ScenarioYaml, AllProblemsOfAFileAreReportedInOrderOfLine) {
             file + ":10: organs[0].radius: '0.8' has no unit; give a length such as '0.8 mm'\n" + file +
             ":11: organs[0].material: needs exactly one of 'poisson_ratio' and 'shear_modulus'\n" + file +
             ":12: organs[0].growth.zone_length: is an unknown key; known here are 'elongation', 'twist_transport', "
+            "'stress_coupling', "
             "'profile' and "
             "'rate'\n" +
             file + ":13: organs[0].sensitivities.softening_length: is missing; give a length such as '0.8 mm'\n" +

@@ -9,8 +9,12 @@
 
 namespace sensory_growth::growth {
 
-/// Relative elongation rate of every element [1/s], averaged over it exactly; size n.
-void elementRates(const Profile& profile, const rod::Rod& rod, std::vector<double>& rates);
+/// What multiplies the rate of the profile in each element [-], never negative; size n, or empty where nothing does.
+using GrowthFactors = std::vector<double>;
+
+/// Relative elongation rate of every element [1/s], averaged over it exactly and never negative; size n.
+void elementRates(const Profile& profile, const GrowthFactors& factors, const rod::Rod& rod,
+                  std::vector<double>& rates);
 
 /// How much elements and bends grow during a step, and how long the elements are at its end.
 struct GrowthStrain {
@@ -23,8 +27,9 @@ struct GrowthStrain {
 /// uniform growth is exact. Owns its work space.
 class Elongation {
  public:
-  /// Growth strain of `dt` [s], given the elementRates() at its start; the rod is not changed.
-  const GrowthStrain& strain(const Profile& profile, const rod::Rod& rod, const std::vector<double>& rates, double dt);
+  /// Growth strain of `dt` [s] with factors that stay, given the elementRates() at its start; the rod is not changed.
+  const GrowthStrain& strain(const Profile& profile, const GrowthFactors& factors, const rod::Rod& rod,
+                             const std::vector<double>& rates, double dt);
 
   /// The same with all lengths held ("elongation off"): strain is rate times dt.
   const GrowthStrain& strainAtFixedLength(const rod::Rod& rod, const std::vector<double>& rates, double dt);
@@ -33,6 +38,10 @@ class Elongation {
   GrowthStrain strain_;
   std::vector<double> initial_, stage_, slope_;
 };
+
+/// What comes to the strain `before` when it turns out to be `after`: its elements and bends are the difference, its
+/// lengths are those of `after`.
+void difference(const GrowthStrain& before, const GrowthStrain& after, GrowthStrain& extra);
 
 /// What growth does to twist (model.md 3.2).
 enum class TwistTransport {

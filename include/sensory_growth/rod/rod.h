@@ -35,6 +35,7 @@ struct Element {
   double rest_length = 0.0;       ///< growth included [m]
   double reference_length = 0.0;  ///< rest length of the same tissue before any growth [m]
   Section section;
+  double age = 0.0;                       ///< of the material, by the clock of its organ [s]
   Vector3 strain = Vector3::Zero();       ///< sigma: shear along d1, d2 and stretch along d3 [-]
   Vector3 rest_strain = Vector3::Zero();  ///< sigma of the stress-free element [-]
   Quaternion frame = Quaternion::Identity();

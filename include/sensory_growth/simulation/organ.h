@@ -66,7 +66,7 @@ class Organ {
 
   mechanics::Energy energy() const { return mechanics::energy(rod_, loads_); }
 
-  /// Relative elongation rate of every element as the organ stands [1/s].
+  /// Relative elongation rate of every element as the organ stands, stress included [1/s].
   std::vector<double> growthRates() const;
 
   /// What every bend perceives of every cue as the organ stands.
@@ -76,6 +76,9 @@ class Organ {
   double longestPart(const growth::Environment& environment, double time);
   OrganFault growAndRelax(double dt, const growth::Environment& environment, double time);
   const rod::Rod& beforePart() const { return report_.substeps == 0 ? before_step_ : before_part_; }
+  const growth::GrowthStrain& growthStrain(double dt);
+  void correctFactors(const growth::GrowthStrain& strain, double dt);
+  void growOlder(const growth::GrowthStrain& strain, double dt, double share);
   double elasticAmplification() const;
   OrganFault relax();
   OrganFault relaxInPassing();
@@ -95,6 +98,9 @@ class Organ {
   growth::Elongation elongation_;
   growth::Perception perception_;
   growth::Perception::Mark perception_before_step_;
+  growth::GrowthFactors factors_, new_factors_;
+  growth::GrowthStrain predicted_strain_, extra_strain_;
+  growth::Deposition deposition_;
   growth::CueFields cues_;
   std::vector<rod::Vector3> drive_, new_drive_;
   std::vector<double> rates_;

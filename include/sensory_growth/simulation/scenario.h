@@ -4,13 +4,16 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "sensory_growth/growth/aging.h"
 #include "sensory_growth/growth/cues.h"
 #include "sensory_growth/growth/differential_growth.h"
 #include "sensory_growth/growth/perception.h"
 #include "sensory_growth/growth/profile.h"
+#include "sensory_growth/growth/stress_coupling.h"
 #include "sensory_growth/mechanics/dynamics.h"
 #include "sensory_growth/mechanics/static_equilibrium.h"
 #include "sensory_growth/rod/division.h"
@@ -43,9 +46,11 @@ struct OrganScenario {
   growth::Profile profile = growth::UniformProfile{};
   bool elongation = true;  ///< off: the organ bends by growth but keeps its length (the AC model)
   growth::TwistTransport twist_transport = growth::TwistTransport::angle;
+  std::optional<growth::StressCoupling> stress_coupling;  ///< of tissue that can stretch: not if inextensible
   growth::Senses senses;
   std::vector<growth::Route> sensing;  ///< of cues that are not perceived where and when they are
   growth::BendingLaw bending;
+  std::optional<growth::Aging> aging;
 
   double longest_element = std::numeric_limits<double>::infinity();  ///< longer elements divide [m]; infinity: never
   rod::DivisionMode division = rod::DivisionMode::keep_strain;
@@ -55,6 +60,7 @@ struct OrganScenario {
 struct StepLimits {
   double tip_advance = 0.5;     ///< of the tip, as a fraction of longest_element [-]
   double growth_strain = 0.05;  ///< of any element [-]
+  double growth_stress = 0.5;   ///< that growth builds up where it is held, as a fraction of the yield margin [-]
   double bend_angle = 0.02;     ///< turning of one bend [rad]
   double total_angle = 0.1;     ///< summed turning of all bends [rad]
   double oscillation = 0.1;     ///< of any circumnutation, as a fraction of its period [-]

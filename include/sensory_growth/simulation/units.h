@@ -23,6 +23,7 @@ inline constexpr Dimension angle_gradient{"an angle per length", "rad/m", "10 de
 inline constexpr Dimension curvature{"a curvature", "1/m", "5 1/m"};
 inline constexpr Dimension acceleration{"an acceleration", "m/s^2", "9.81 m/s^2"};
 inline constexpr Dimension modulus{"an elastic modulus", "Pa", "10 MPa"};
+inline constexpr Dimension stress{"a stress", "Pa", "0.3 MPa"};
 inline constexpr Dimension density{"a density", "kg/m^3", "1000 kg/m^3"};
 inline constexpr Dimension force{"a force", "N", "2 mN"};
 inline constexpr Dimension line_force{"a force per length", "N/m", "5 mN/m"};
