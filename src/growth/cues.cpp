@@ -1,5 +1,6 @@
 #include "sensory_growth/growth/cues.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sensory_growth::growth {
@@ -101,7 +102,10 @@ Eigen::Vector2d CueField::oscillation(double from_apex) const {
 
 void sense(const Senses& senses, const Environment& environment, double time, const rod::Rod& rod, CueFields& cues) {
   const CueField field(senses, environment, time);
-  for (SectionField& cue : cues) cue.assign(rod.size(), Eigen::Vector2d::Zero());
+  for (SectionField& cue : cues) {
+    cue.resize(rod.size());
+    std::fill_n(cue.begin(), rod.firstBend(), Eigen::Vector2d::Zero());
+  }
   double from_apex = rod.restLength();
   for (std::size_t j = 0; j < rod.size(); ++j) {
     if (j >= rod.firstBend()) {

@@ -44,13 +44,13 @@ double drive(const rod::Rod& rod, const BendingLaw& law, const CueFields& percei
   const Proprioception& p = law.proprioception;
   const Eigen::Vector2d towards_set_point = (p.intrinsic_length + p.actual_length) * p.set_point;
   drive.assign(rod.size(), rod::Vector3::Zero());
-  double largest = 0.0;
+  double largest_square = 0.0;
   for (std::size_t j = rod.firstBend(); j < rod.size(); ++j) {
     Eigen::Vector2d delta = Eigen::Vector2d::Zero();
     for (const SectionField& cue : perceived) delta += cue[j];
-    const double size = delta.norm();
-    largest = std::max(largest, size);
-    if (law.saturation && size > 1.0) delta /= size;
+    const double square = delta.squaredNorm();
+    largest_square = std::max(largest_square, square);
+    if (law.saturation && square > 1.0) delta /= std::sqrt(square);
 
     const rod::Bend& bend = rod.bends[j];
     const rod::Vector3 elastic = bend.curvature - bend.rest_curvature;
@@ -58,7 +58,7 @@ double drive(const rod::Rod& rod, const BendingLaw& law, const CueFields& percei
     f.head<2>() += Eigen::Vector2d(-delta.y(), delta.x()) + towards_set_point - p.actual_length * elastic.head<2>();
     drive[j] = f * inverseRadius(rod, j);
   }
-  return largest;
+  return std::sqrt(largest_square);
 }
 
 Eigen::Vector2d bendingRate(const rod::Rod& rod, const BendingLaw& law, const std::vector<rod::Vector3>& drive,
