@@ -89,6 +89,40 @@ TEST(ApicalSensing, BendsOnlyTissueThatReceives) {
   for (std::size_t j = 0; j < 40; ++j) EXPECT_EQ(rod.bends[j].rest_curvature.y() < -0.1, j < 20) << j;
 }
 
+TEST(ApicalSensing, IsWhatEveryBendReports) {
+  Simulation simulation(apicalGravitropism(1.2, 2.0, 0.01, 10));
+  for (int i = 0; i < 20; ++i) ASSERT_TRUE(simulation.step().ok);
+  const growth::CueFields cues = simulation.organs().front().cues(simulation.environment());
+  for (const Eigen::Vector2d& cue : cues[static_cast<std::size_t>(Cue::gravity)]) {
+    EXPECT_NEAR(cue.norm(), 2.0 * kRadius * std::sin(tipAngle(onlyRod(simulation))), 1e-14);
+  }
+}
+
+TEST(Routes, OfOneCueAddUpAndLeaveOtherCuesAlone) {
+  const auto tip = [](const std::vector<double>& weights) {
+    Scenario scenario = apicalGravitropism(1.2, 2.0, 0.05, 10);
+    scenario.protocol = {
+        {0.0, {StimulusKind::light_direction, StimulusOperation::add, "sun", Vector3(0.3, 1.0, 0.5), 1.0}}};
+    OrganScenario& organ = scenario.organs.front();
+    organ.senses.light_direction = 0.1;
+    const Route route = organ.sensing[0];
+    organ.sensing.clear();
+    for (const double weight : weights) {
+      organ.sensing.push_back(route);
+      organ.sensing.back().receivers = {growth::Coordinate::label, {0.0}, {weight}};
+    }
+    if (weights.empty()) {  // a route of nothing is the same as no sense
+      organ.senses.gravity = 0.0;
+    }
+    Simulation simulation(scenario);
+    for (int i = 0; i < 10; ++i) EXPECT_TRUE(simulation.step().ok);
+    return onlyRod(simulation).vertices.back().position;
+  };
+  EXPECT_LT((tip({1.0}) - tip({0.7, 0.5, -0.2})).norm(), 1e-14);
+  EXPECT_LT((tip({0.0}) - tip({})).norm(), 1e-14);
+  EXPECT_GT((tip({1.0}) - tip({0.0})).norm(), 0.1);
+}
+
 // --- V17: with a reaction delay
 // -------------------------------------------------------------------------------------
 
