@@ -24,8 +24,9 @@ Organ::Organ(const OrganScenario& organ, const Scenario& scenario)
   }
   loads_ = organ.loads;
   if (scenario.weight) loads_.gravity = scenario.gravity;
-  if (const auto fault = mechanics::findFault(loads_.surroundings)) {
-    throw std::invalid_argument("organ '" + organ.id + "': " + *fault);
+  for (const auto& fault :
+       {mechanics::findFault(loads_.surroundings), growth::findFault(organ.senses), growth::findFault(organ.bending)}) {
+    if (fault) throw std::invalid_argument("organ '" + organ.id + "': " + *fault);
   }
 
   rod_ = rod::straightRod(organ.base, organ.length, organ.elements, organ.section);
@@ -50,9 +51,11 @@ const OrganReport& Organ::advance(double dt, const growth::Environment& environm
   const double smallest = stepping_.limits.smallest_part * dt;
   before_step_ = rod_;
   report_before_step_ = report_;
+  amplification_before_step_ = amplification_;
   report_ = {};
   const auto giveUp = [this](OrganFault fault) -> const OrganReport& {
     rod_ = before_step_;
+    amplification_ = amplification_before_step_;
     report_.fault = fault;
     return report_;
   };
@@ -69,16 +72,15 @@ const OrganReport& Organ::advance(double dt, const growth::Environment& environm
     const double part = remaining / parts;
 
     // The first part starts where the step does, and one part is the rule.
-    rod::Rod& before_part = report_.substeps == 0 ? before_step_ : before_part_;
     if (report_.substeps > 0) before_part_ = rod_;
-    const OrganFault fault = growAndRelax(part, environment, time, before_part);
+    const OrganFault fault = growAndRelax(part, environment, time);
     if (fault == OrganFault::too_many_elements) return giveUp(fault);
     if (fault == OrganFault::none) {
       remaining = parts > 1.0 ? remaining - part : 0.0;
       longest_allowed = dt;
       ++report_.substeps;
     } else {
-      rod_ = before_part;
+      rod_ = beforePart();
       longest_allowed = 0.5 * part;
       ++report_.retries;
     }
@@ -89,19 +91,20 @@ const OrganReport& Organ::advance(double dt, const growth::Environment& environm
 void Organ::undo() {
   rod_ = before_step_;
   report_ = report_before_step_;
+  amplification_ = amplification_before_step_;
 }
 
-/// Expects rates_, factors_ and drive_ at the start of the part, as longestPart() leaves them, and the rod as it was
-/// then.
-OrganFault Organ::growAndRelax(double dt, const growth::Environment& environment, double time, const rod::Rod& before) {
-  const growth::GrowthStrain& strain = growthStrain(before, dt);
-  if (scenario_.elongation) growth::elongate(rod_, strain);
+/// Expects rates_, factors_ and drive_ at the start of the part, as longestPart() leaves them.
+OrganFault Organ::growAndRelax(double dt, const growth::Environment& environment, double time) {
+  const growth::GrowthStrain& strain = growthStrain(dt);
+  if (scenario_.elongation) growth::elongate(rod_, strain, scenario_.twist_transport, drive_);
   // Half of the aging comes before the growth of the rest curvature and half after, so that neither sees the other
   // late.
   if (scenario_.aging) deposition_.begin(rod_.size());
-  growOlder(before, strain, dt, 0.5);
+  growOlder(strain, dt, 0.5);
+  if (scenario_.bending.rotation) growth::turn(rod_, *scenario_.bending.rotation, rates_, dt, drive_);
   growth::predict(rod_, scenario_.bending, strain, drive_);
-  growOlder(before, strain, dt, 1.0);
+  growOlder(strain, dt, 1.0);
   // Growth carries the rod along: left in place, it would be compressed and ring (model.md 11.1).
   rod_.rebuild();
   const bool moves = method_ == RelaxationMethod::continuous;
@@ -110,13 +113,14 @@ OrganFault Organ::growAndRelax(double dt, const growth::Environment& environment
 
   if (stepping_.second_order) {
     growth::sense(scenario_.senses, environment, time + dt, rod_, cues_);
-    growth::drive(rod_, cues_, new_drive_);
+    growth::drive(rod_, scenario_.bending, cues_, new_drive_);
     growth::correct(rod_, scenario_.bending, strain, drive_, new_drive_);
-    if (scenario_.stress_coupling) correctFactors(before, strain, dt);
-    if (scenario_.aging) deposition_.correct(rod_, before);
+    if (scenario_.stress_coupling) correctFactors(strain, dt);
+    if (scenario_.aging) deposition_.correct(rod_, beforePart());
     rod_.rebuild();
     if (!moves && relax() != OrganFault::none) return OrganFault::relaxation;
   }
+  amplification_ = elasticAmplification();
 
   const std::size_t divisions = rod::divideLongElements(rod_, scenario_.longest_element, scenario_.division);
   report_.divisions += divisions;
@@ -124,30 +128,30 @@ OrganFault Organ::growAndRelax(double dt, const growth::Environment& environment
   return divisions == 0 || moves ? OrganFault::none : relax();
 }
 
-const growth::GrowthStrain& Organ::growthStrain(const rod::Rod& before, double dt) {
-  return scenario_.elongation ? elongation_.strain(scenario_.profile, factors_, before, rates_, dt)
-                              : elongation_.strainAtFixedLength(before, rates_, dt);
+const growth::GrowthStrain& Organ::growthStrain(double dt) {
+  return scenario_.elongation ? elongation_.strain(scenario_.profile, factors_, beforePart(), rates_, dt)
+                              : elongation_.strainAtFixedLength(beforePart(), rates_, dt);
 }
 
-/// Ages the organ by a share of the time that it does not spend growing, as it stood before.
-void Organ::growOlder(const rod::Rod& before, const growth::GrowthStrain& strain, double dt, double share) {
+/// Ages the organ by a share of the time that it does not spend growing.
+void Organ::growOlder(const growth::GrowthStrain& strain, double dt, double share) {
   if (!scenario_.aging) return;
-  growth::growOlder(rod_, before, *scenario_.aging, scenario_.section, strain, growth::largestRate(scenario_.profile),
-                    dt, share);
-  deposition_.predict(rod_, before);
+  growth::growOlder(rod_, beforePart(), *scenario_.aging, scenario_.section, strain,
+                    growth::largestRate(scenario_.profile), dt, share);
+  deposition_.predict(rod_, beforePart());
 }
 
 /// Grows by what the mean of the growth factors at the start and the end of the part adds to the predicted strain.
-void Organ::correctFactors(const rod::Rod& before, const growth::GrowthStrain& strain, double dt) {
+void Organ::correctFactors(const growth::GrowthStrain& strain, double dt) {
   predicted_strain_ = strain;
   growth::stressFactors(*scenario_.stress_coupling, rod_, new_factors_);
   for (std::size_t e = 0; e < factors_.size(); ++e) factors_[e] = 0.5 * (factors_[e] + new_factors_[e]);
-  growth::elementRates(scenario_.profile, factors_, before, rates_);
-  const growth::GrowthStrain& corrected = growthStrain(before, dt);
+  growth::elementRates(scenario_.profile, factors_, beforePart(), rates_);
+  const growth::GrowthStrain& corrected = growthStrain(dt);
   growth::difference(predicted_strain_, corrected, extra_strain_);
-  if (scenario_.elongation) growth::elongate(rod_, extra_strain_);
+  if (scenario_.elongation) growth::elongate(rod_, extra_strain_, scenario_.twist_transport, new_drive_);
   growth::predict(rod_, scenario_.bending, extra_strain_, new_drive_);
-  growOlder(before, corrected, dt, 1.0);
+  growOlder(corrected, dt, 1.0);
 }
 
 OrganFault Organ::relax() {
@@ -190,7 +194,7 @@ double Organ::longestPart(const growth::Environment& environment, double time) {
   if (scenario_.stress_coupling) growth::stressFactors(*scenario_.stress_coupling, rod_, factors_);
   growth::elementRates(scenario_.profile, factors_, rod_, rates_);
   growth::sense(scenario_.senses, environment, time, rod_, cues_);
-  const double differential_growth = growth::drive(rod_, cues_, drive_);
+  const double differential_growth = growth::drive(rod_, law, cues_, drive_);
   report_.largest_differential_growth = std::max(report_.largest_differential_growth, differential_growth);
 
   double fastest_growth = 0.0;
@@ -199,10 +203,8 @@ double Organ::longestPart(const growth::Environment& environment, double time) {
   double tip_speed = 0.0;
   double fastest_stress = 0.0;  // that builds up where growth is held
   for (std::size_t j = 0; j < rod_.size(); ++j) {
-    const double bend_rate = rod::voronoiMean(rod_, j, [this](std::size_t e) { return rates_[e]; });
-    const double straightening = law.proprioception_length * growth::inverseRadius(rod_, j);
-    const Eigen::Vector2d slope = drive_[j] - straightening * rod_.bends[j].rest_curvature.head<2>();
-    const double turning = rod_.voronoiLength(j) * bend_rate * slope.norm();
+    const double growth_rate = rod::voronoiMean(rod_, j, [this](std::size_t e) { return rates_[e]; });
+    const double turning = rod_.voronoiLength(j) * growth_rate * growth::bendingRate(rod_, law, drive_, j).norm();
     fastest_growth = std::max(fastest_growth, rates_[j]);
     fastest_stress = std::max(fastest_stress, rates_[j] * rod_.elements[j].section.young_modulus);
     fastest_bend = std::max(fastest_bend, turning);
@@ -218,8 +220,35 @@ double Organ::longestPart(const growth::Environment& environment, double time) {
   if (scenario_.stress_coupling) {
     dt = std::min(dt, longest(limits.growth_stress * scenario_.stress_coupling->yield_margin, fastest_stress));
   }
-  dt = std::min(dt, longest(limits.bend_angle, fastest_bend));
-  return std::min(dt, longest(limits.total_angle, total_turning));
+  if (scenario_.senses.oscillator.amplitude != 0.0) {
+    dt = std::min(dt, limits.oscillation * std::abs(scenario_.senses.oscillator.period));
+  }
+  if (law.rotation) dt = std::min(dt, limits.oscillation * std::abs(law.rotation->period));
+  dt = std::min(dt, longest(limits.bend_angle, amplification_ * fastest_bend));
+  return std::min(dt, longest(limits.total_angle, amplification_ * total_turning));
+}
+
+/// How many times more the organ has turned in this part than its rest state: the nearer it is to falling over, the
+/// more (model.md 11.2). Bounded, so that a jump to another equilibrium shortens one part, not all that follow.
+double Organ::elasticAmplification() const {
+  constexpr double kMostAmplification = 20.0;
+  if (method_ == RelaxationMethod::kinematics) return 1.0;
+  double turning = 0.0;
+  double rest_turning = 0.0;
+  for (std::size_t j = rod_.firstBend(); j < rod_.size(); ++j) {
+    const rod::Bend& before = beforePart().bends[j];
+    const rod::Bend& now = rod_.bends[j];
+    const double length = rod_.voronoiLength(j);
+    turning += length * (now.curvature - before.curvature).head<2>().norm();
+    rest_turning += length * (now.rest_curvature - before.rest_curvature).head<2>().norm();
+  }
+  return rest_turning > 0.0 ? std::clamp(turning / rest_turning, 1.0, kMostAmplification) : 1.0;
+}
+
+growth::CueFields Organ::cues(const growth::Environment& environment) const {
+  growth::CueFields cues;
+  growth::sense(scenario_.senses, environment, environment.time, rod_, cues);
+  return cues;
 }
 
 std::vector<double> Organ::growthRates() const {

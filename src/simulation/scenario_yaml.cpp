@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "loads_yaml.h"
+#include "senses_yaml.h"
 #include "sensory_growth/simulation/yaml_reader.h"
 #include "tissue_yaml.h"
 
@@ -47,6 +48,7 @@ void readLimits(YamlReader& in, StepLimits& limits) {
   limits.growth_stress = in.number("growth_stress", limit, limits.growth_stress);
   limits.bend_angle = in.quantity("bend_angle", dimension::angle, limit, limits.bend_angle);
   limits.total_angle = in.quantity("total_angle", dimension::angle, limit, limits.total_angle);
+  limits.oscillation = in.number("oscillation", limit, limits.oscillation);
   limits.smallest_part = in.number("smallest_part", above(0).upTo(1), limits.smallest_part);
 }
 
@@ -110,15 +112,6 @@ void readRelaxation(YamlReader& in, Scenario& scenario) {
   }
 }
 
-void readSensitivities(YamlReader& in, growth::Senses& senses) {
-  senses.gravity = in.number("gravity", anyNumber);
-  senses.light_direction = in.number("light_direction", anyNumber);
-  senses.point_source = in.number("point_source", anyNumber);
-  if (std::abs(senses.point_source) > 0.0 || in.has("softening_length")) {
-    senses.softening_length = in.quantity("softening_length", dimension::length, atLeast(0));
-  }
-}
-
 OrganScenario readOrgan(YamlReader& in, RelaxationMethod relaxation, IdLines& ids) {
   OrganScenario organ;
   organ.id = readId(in, ids);
@@ -129,9 +122,7 @@ OrganScenario readOrgan(YamlReader& in, RelaxationMethod relaxation, IdLines& id
   in.section("material", kRequired, [&](YamlReader& material) { readMaterial(material, relaxation, organ.section); });
   in.section("growth", kRequired, [&](YamlReader& growth) { readGrowth(growth, relaxation, organ); });
   in.section("aging", kOptional, [&](YamlReader& aging) { organ.aging = readAging(aging, relaxation); });
-  in.section("sensitivities", kRequired,
-             [&](YamlReader& sensitivities) { readSensitivities(sensitivities, organ.senses); });
-  organ.bending.proprioception_length = in.quantity("proprioception_length", dimension::length, atLeast(0));
+  readSenses(in, organ);
   in.section("division", kRequired, [&](YamlReader& division) { readDivision(division, relaxation, organ); });
   readLoads(in, relaxation, organ);
   organ.rest_curvature = in.vector("rest_curvature", dimension::curvature, organ.rest_curvature);

@@ -77,6 +77,11 @@ void readMaterial(YamlReader& in, RelaxationMethod relaxation, rod::Section& sec
 
 void readGrowth(YamlReader& in, RelaxationMethod relaxation, OrganScenario& organ) {
   organ.elongation = in.flag("elongation", organ.elongation);
+  using growth::TwistTransport;
+  organ.twist_transport =
+      in.choice<TwistTransport>("twist_transport", {{"angle", TwistTransport::angle}, {"rate", TwistTransport::rate}},
+                                organ.twist_transport)
+          .value_or(organ.twist_transport);
   in.section("stress_coupling", Presence::optional,
              [&](YamlReader& coupling) { organ.stress_coupling = readStressCoupling(coupling); });
   if (organ.stress_coupling && relaxation == RelaxationMethod::kinematics) {

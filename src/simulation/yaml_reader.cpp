@@ -166,22 +166,15 @@ double YamlReader::quantity(const std::string& key, const Dimension& dimension, 
   });
 }
 
+std::vector<double> YamlReader::numbers(const std::string& key, const Range& range) {
+  return sequence(key, "a number without a unit",
+                  [&](const std::string& text) { return inRange(parseNumber(text), range, ""); });
+}
+
 std::vector<double> YamlReader::quantities(const std::string& key, const Dimension& dimension, const Range& range) {
-  const std::string request = "give a sequence, each " + example(dimension);
-  std::vector<double> values;
-  const Entry* e = find(key, Presence::required, request);
-  if (!e) return values;
-  if (!e->value.IsSequence()) {
-    addProblem(key, simulation::describe(e->value) + "; " + request);
-    return values;
-  }
-  if (e->value.size() == 0) addProblem(key, "is empty; " + request);
-  for (std::size_t i = 0; i < e->value.size(); ++i) {
-    values.push_back(component(e->value, i, key, example(dimension), [&](const std::string& text) {
-      return inRange(parseQuantity(text, dimension), range, dimension.unit);
-    }));
-  }
-  return values;
+  return sequence(key, example(dimension), [&](const std::string& text) {
+    return inRange(parseQuantity(text, dimension), range, dimension.unit);
+  });
 }
 
 rod::Vector3 YamlReader::vector(const std::string& key, const Dimension& dimension,
@@ -285,6 +278,23 @@ double YamlReader::convert(const std::string& key, int line, const std::string& 
     problems_.push_back({pathOf(key), line, quote(text) + " " + fault.what()});
     return kNan;
   }
+}
+
+std::vector<double> YamlReader::sequence(const std::string& key, const std::string& component_request,
+                                         const Parse& parse) {
+  const std::string request = "give a sequence, each " + component_request;
+  std::vector<double> values;
+  const Entry* e = find(key, Presence::required, request);
+  if (!e) return values;
+  if (!e->value.IsSequence()) {
+    addProblem(key, simulation::describe(e->value) + "; " + request);
+    return values;
+  }
+  if (e->value.size() == 0) addProblem(key, "is empty; " + request);
+  for (std::size_t i = 0; i < e->value.size(); ++i) {
+    values.push_back(component(e->value, i, key, component_request, parse));
+  }
+  return values;
 }
 
 rod::Vector3 YamlReader::triple(const std::string& key, const std::string& component_request, const Parse& parse) {

@@ -69,13 +69,14 @@ TEST(StressCoupling, LengthsAddUpToTheIntegralOfTheVelocity) {
   const Profile profile = ApicalGaussianProfile{1.0, 0.5};
   rod::Rod rod = rod::straightRod({}, 0.7, 23, support::section(0.1, 1.0, 1.0));
   const GrowthFactors factors(23, 0.3);
+  std::vector<rod::Vector3> drive(23, rod::Vector3::Zero());
   Elongation elongation;
   std::vector<double> rates;
   double length = 0.7;
   constexpr double kStep = 0.05;
   for (int i = 0; i < 40; ++i) {
     elementRates(profile, factors, rod, rates);
-    elongate(rod, elongation.strain(profile, factors, rod, rates, kStep));
+    elongate(rod, elongation.strain(profile, factors, rod, rates, kStep), TwistTransport::angle, drive);
     constexpr int kFine = 20;
     for (int k = 0; k < kFine; ++k) {  // the same equation for the length alone, by RK4 with finer steps
       const double h = kStep / kFine;

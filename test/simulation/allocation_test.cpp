@@ -47,7 +47,7 @@ Simulation shoot(RelaxationMethod relaxation) {
   organ.section = support::section(0.03, 1.0, 1.0);
   organ.profile = growth::LogisticProfile{1.0, 0.4, 15.0};
   organ.senses = {0.05, 0.1, 0.1, 0.01};
-  organ.bending.proprioception_length = 0.01;
+  organ.bending.proprioception.intrinsic_length = 0.01;
   Simulation simulation(scenario);
   simulation.apply({StimulusKind::point_source, StimulusOperation::add, "lamp", {1.0, 2.0, 0.5}, 1.0});
   simulation.apply({StimulusKind::light_direction, StimulusOperation::add, "sun", {0.0, 1.0, 1.0}, 1.0});
@@ -91,6 +91,20 @@ TEST(Allocations, AreNotNeededByAStepOfAgingTissueUnderStress) {
 
 TEST(Allocations, AreNotNeededByASteadyKinematicStep) {
   Simulation simulation = shoot(RelaxationMethod::kinematics);
+  EXPECT_EQ(allocationsOfSteadySteps(simulation), 0);
+}
+
+TEST(Allocations, AreNotNeededWithAnyCueAndGrowthLaw) {
+  Scenario scenario = shoot(RelaxationMethod::statics).scenario();
+  OrganScenario& organ = scenario.organs.front();
+  organ.senses.intensity_exponent = 0.5;
+  organ.senses.distance = growth::SampledPull{{0.1, 2.0}, {1.0, 0.5}};
+  organ.senses.oscillator = {0.1, 0.5, 0.2, 1.0};
+  organ.bending.proprioception = {0.01, 0.01, 0.01, {0.1, 0.2}};
+  organ.bending.rotation = growth::RestRotation{1.0, 1e-3};
+  organ.bending.saturation = true;
+  Simulation simulation(scenario);
+  simulation.apply({StimulusKind::point_source, StimulusOperation::add, "lamp", {1.0, 2.0, 0.5}, 1.0});
   EXPECT_EQ(allocationsOfSteadySteps(simulation), 0);
 }
 

@@ -68,12 +68,17 @@ class Organ {
   /// Relative elongation rate of every element as the organ stands, stress included [1/s].
   std::vector<double> growthRates() const;
 
+  /// What every bend senses of every cue as the organ stands.
+  growth::CueFields cues(const growth::Environment& environment) const;
+
  private:
   double longestPart(const growth::Environment& environment, double time);
-  OrganFault growAndRelax(double dt, const growth::Environment& environment, double time, const rod::Rod& before);
-  const growth::GrowthStrain& growthStrain(const rod::Rod& before, double dt);
-  void correctFactors(const rod::Rod& before, const growth::GrowthStrain& strain, double dt);
-  void growOlder(const rod::Rod& before, const growth::GrowthStrain& strain, double dt, double share);
+  OrganFault growAndRelax(double dt, const growth::Environment& environment, double time);
+  const rod::Rod& beforePart() const { return report_.substeps == 0 ? before_step_ : before_part_; }
+  const growth::GrowthStrain& growthStrain(double dt);
+  void correctFactors(const growth::GrowthStrain& strain, double dt);
+  void growOlder(const growth::GrowthStrain& strain, double dt, double share);
+  double elasticAmplification() const;
   OrganFault relax();
   OrganFault relaxInPassing();
   OrganFault move(double duration);
@@ -93,8 +98,9 @@ class Organ {
   growth::GrowthStrain predicted_strain_, extra_strain_;
   growth::Deposition deposition_;
   growth::CueFields cues_;
-  std::vector<Eigen::Vector2d> drive_, new_drive_;
+  std::vector<rod::Vector3> drive_, new_drive_;
   std::vector<double> rates_;
+  double amplification_ = 1.0, amplification_before_step_ = 1.0;  ///< as the last part left it
   OrganReport report_, report_before_step_;
 };
 

@@ -44,6 +44,7 @@ struct OrganScenario {
 
   growth::Profile profile = growth::UniformProfile{};
   bool elongation = true;  ///< off: the organ bends by growth but keeps its length (the AC model)
+  growth::TwistTransport twist_transport = growth::TwistTransport::angle;
   std::optional<growth::StressCoupling> stress_coupling;  ///< of tissue that can stretch: not if inextensible
   growth::Senses senses;
   growth::BendingLaw bending;
@@ -60,6 +61,7 @@ struct StepLimits {
   double growth_stress = 0.5;   ///< that growth builds up where it is held, as a fraction of the yield margin [-]
   double bend_angle = 0.02;     ///< turning of one bend [rad]
   double total_angle = 0.1;     ///< summed turning of all bends [rad]
+  double oscillation = 0.1;     ///< of any circumnutation, as a fraction of its period [-]
   double smallest_part =
       1.0 / 4096.0;  ///< of a step; when failing relaxations or the limits above ask for less, it fails [-]
 };
