@@ -106,11 +106,11 @@ void Organ::undo() {
 OrganFault Organ::growAndRelax(double dt, const growth::Environment& environment, double time) {
   const growth::GrowthStrain& strain = growthStrain(dt);
   if (scenario_.elongation) growth::elongate(rod_, strain, scenario_.twist_transport, drive_);
-  if (scenario_.bending.rotation) growth::turn(rod_, *scenario_.bending.rotation, rates_, dt, drive_);
   // Half of the aging comes before the growth of the rest curvature and half after, so that neither sees the other
   // late.
   if (scenario_.aging) deposition_.begin(rod_.size());
   growOlder(strain, dt, 0.5);
+  if (scenario_.bending.rotation) growth::turn(rod_, *scenario_.bending.rotation, rates_, dt, drive_);
   growth::predict(rod_, scenario_.bending, strain, drive_);
   growOlder(strain, dt, 1.0);
   const bool moves = method_ == RelaxationMethod::continuous;

@@ -10,7 +10,8 @@ namespace sensory_growth::simulation {
 /// The section "material" of an organ. Refuses what the relaxation cannot serve.
 void readMaterial(YamlReader& in, RelaxationMethod relaxation, rod::Section& section);
 
-/// The section "growth" of an organ: profile, elongation and stress coupling. Expects the material to be read.
+/// The section "growth" of an organ: profile, elongation, transport of twist and stress coupling. Expects the material
+/// to be read.
 void readGrowth(YamlReader& in, RelaxationMethod relaxation, OrganScenario& organ);
 
 /// The section "aging" of an organ.

@@ -69,6 +69,7 @@ TEST(StressCoupling, LengthsAddUpToTheIntegralOfTheVelocity) {
   const Profile profile = ApicalGaussianProfile{1.0, 0.5};
   rod::Rod rod = rod::straightRod({}, 0.7, 23, support::section(0.1, 1.0, 1.0));
   const GrowthFactors factors(23, 0.3);
+  std::vector<rod::Vector3> drive(23, rod::Vector3::Zero());
   Elongation elongation;
   std::vector<double> rates;
   double length = 0.7;
