@@ -15,6 +15,7 @@ Organ::Organ(const OrganScenario& organ, const Scenario& scenario)
     : scenario_(organ),
       stepping_(scenario.stepping),
       method_(scenario.relaxation),
+      has_weight_(scenario.weight),
       growth_per_second_(scenario.growth_per_second),
       relaxation_settings_(scenario.relaxation_settings),
       equilibrium_(scenario.relaxation_settings),
@@ -23,7 +24,7 @@ Organ::Organ(const OrganScenario& organ, const Scenario& scenario)
     throw std::invalid_argument("growth_per_second must be positive");
   }
   loads_ = organ.loads;
-  if (scenario.weight) loads_.gravity = scenario.gravity;
+  if (has_weight_) loads_.gravity = scenario.gravity;
   if (const auto fault = mechanics::findFault(loads_.surroundings)) {
     throw std::invalid_argument("organ '" + organ.id + "': " + *fault);
   }
@@ -35,10 +36,7 @@ Organ::Organ(const OrganScenario& organ, const Scenario& scenario)
   }
   rod_.rebuild();
   report_.divisions = rod::divideLongElements(rod_, organ.longest_element, organ.division);
-  report_.fault = relax();
-  if (!report_.ok() && method_ == RelaxationMethod::statics) {
-    report_.fault = take(equilibrium_.relaxInLoadSteps(rod_, loads_));
-  }
+  report_.fault = relaxFromAnywhere();
   if (!report_.ok()) {
     throw std::invalid_argument("organ '" + organ.id + "' has no equilibrium to start from: " + describe(report_));
   }
@@ -48,14 +46,15 @@ Organ::Organ(const OrganScenario& organ, const Scenario& scenario)
 
 const OrganReport& Organ::advance(double dt, const growth::Environment& environment) {
   const double smallest = stepping_.limits.smallest_part * dt;
-  before_step_ = rod_;
-  report_before_step_ = report_;
-  report_ = {};
+  if (!has_begun_) begin();
+  has_begun_ = false;
   const auto giveUp = [this](OrganFault fault) -> const OrganReport& {
     rod_ = before_step_;
+    weight_changed_ = weight_changed_before_step_;
     report_.fault = fault;
     return report_;
   };
+  if (!report_.ok()) return giveUp(report_.fault);
 
   double remaining = dt;
   double longest_allowed = dt;
@@ -67,9 +66,10 @@ const OrganReport& Organ::advance(double dt, const growth::Environment& environm
     const double parts = std::max(1.0, std::ceil(remaining / limit * (1.0 - 1e-12)));
     const double part = remaining / parts;
 
-    // The first part starts where the step does, and one part is the rule.
-    rod::Rod& before_part = report_.substeps == 0 ? before_step_ : before_part_;
-    if (report_.substeps > 0) before_part_ = rod_;
+    // The first part mostly starts where the step does, and one part is the rule.
+    const bool is_first = report_.substeps == 0 && !weight_changed_before_step_;
+    rod::Rod& before_part = is_first ? before_step_ : before_part_;
+    if (!is_first) before_part_ = rod_;
     const OrganFault fault = growAndRelax(part, environment);
     if (fault == OrganFault::too_many_elements) return giveUp(fault);
     if (fault == OrganFault::none) {
@@ -88,6 +88,26 @@ const OrganReport& Organ::advance(double dt, const growth::Environment& environm
 void Organ::undo() {
   rod_ = before_step_;
   report_ = report_before_step_;
+  weight_changed_ = weight_changed_before_step_;
+  has_begun_ = false;
+}
+
+void Organ::setGravity(const rod::Vector3& gravity) {
+  if (!has_weight_) return;
+  loads_.gravity = gravity;
+  // An organ in continuous motion takes the change as it comes.
+  weight_changed_ = method_ != RelaxationMethod::continuous;
+}
+
+void Organ::begin() {
+  before_step_ = rod_;
+  report_before_step_ = report_;
+  weight_changed_before_step_ = weight_changed_;
+  has_begun_ = true;
+  report_ = {};
+  if (!weight_changed_) return;
+  report_.fault = relaxFromAnywhere();
+  weight_changed_ = false;
 }
 
 /// Expects rates_ and drive_ at the start of the part, as longestPart() leaves them.
@@ -126,6 +146,13 @@ OrganFault Organ::relax() {
       return take(mechanics::assumeRestShape(rod_, relaxation_settings_));
   }
   return OrganFault::none;
+}
+
+/// For loads that the organ does not carry yet.
+OrganFault Organ::relaxFromAnywhere() {
+  const OrganFault fault = relax();
+  if (fault == OrganFault::none || method_ != RelaxationMethod::statics) return fault;
+  return take(equilibrium_.relaxInLoadSteps(rod_, loads_));
 }
 
 /// The predicted equilibrium is only sensed: it need not be stable, nor more exact than the step.

@@ -10,6 +10,7 @@
 #include "sensory_growth/mechanics/energy.h"
 #include "sensory_growth/mechanics/static_equilibrium.h"
 #include "sensory_growth/rod/rod.h"
+#include "sensory_growth/simulation/parameters.h"
 #include "sensory_growth/simulation/scenario.h"
 
 namespace sensory_growth::simulation {
@@ -52,8 +53,18 @@ class Organ {
   /// the organ is left as it was before the call.
   const OrganReport& advance(double dt, const growth::Environment& environment);
 
-  /// Takes back the last advance(), its report included.
+  /// Takes back the last advance(), its report included. What was set before it stays set.
   void undo();
+
+  /// Gives a parameter that the organ has another value, from the next step on.
+  void set(const Parameter& parameter, double value) { parameter.set(scenario_, value); }
+
+  /// Changes the weight, if the organ has any. An organ in equilibrium relaxes under it when the next step begins.
+  void setGravity(const rod::Vector3& gravity);
+
+  /// Begins a step: relaxes under a weight that changed, so that the step starts from equilibrium. advance() does so
+  /// itself; called before it, others can sense where the organ went. What fails here fails advance().
+  void begin();
 
   const OrganScenario& scenario() const { return scenario_; }
   const rod::Rod& rod() const { return rod_; }
@@ -71,6 +82,7 @@ class Organ {
   double longestPart(const growth::Environment& environment);
   OrganFault growAndRelax(double dt, const growth::Environment& environment);
   OrganFault relax();
+  OrganFault relaxFromAnywhere();
   OrganFault relaxInPassing();
   OrganFault move(double duration);
   OrganFault take(const mechanics::RelaxationReport& relaxation);
@@ -78,6 +90,7 @@ class Organ {
   OrganScenario scenario_;
   Stepping stepping_;
   RelaxationMethod method_;
+  bool has_weight_;
   double growth_per_second_;
   mechanics::RelaxationSettings relaxation_settings_;
   mechanics::Loads loads_;
@@ -88,6 +101,8 @@ class Organ {
   std::vector<Eigen::Vector2d> drive_, new_drive_;
   std::vector<double> rates_;
   OrganReport report_, report_before_step_;
+  bool weight_changed_ = false, weight_changed_before_step_ = false;  ///< since the last relaxation
+  bool has_begun_ = false;
 };
 
 }  // namespace sensory_growth::simulation

@@ -1,0 +1,123 @@
+#include "sensory_growth/simulation/parameters.h"
+
+#include <algorithm>
+#include <sstream>
+#include <type_traits>
+#include <variant>
+
+#include "sensory_growth/simulation/spelling.h"
+
+namespace sensory_growth::simulation {
+namespace {
+
+/// `find(organ)` points to the value; null if the organ has no such part.
+template <typename Find>
+Parameter parameter(const char* name, const Dimension* dimension, const Range& range, const Find& find) {
+  return {name, dimension, range,
+          [find](const OrganScenario& organ) {
+            const double* value = find(organ);
+            return value ? std::optional<double>(*value) : std::nullopt;
+          },
+          [find](OrganScenario& organ, double value) { *find(organ) = value; }};
+}
+
+/// Null, of the same constness as the organ.
+template <typename Organ>
+using Value = std::conditional_t<std::is_const_v<Organ>, const double, double>*;
+
+/// Parts of an organ or of the run that a simulation is built with; what follows a name after '.' belongs to it.
+const std::vector<std::string>& structuralNames() {
+  static const std::vector<std::string> names = {
+      "id",         "base",      "length",     "elements", "radius", "material",   "rest_curvature",
+      "growth",     "division",  "tip_force",  "springs",  "walls",  "line_force", "tip_couple",
+      "held_apex",  "source",    "relaxation", "stepping", "weight", "duration",   "organs",
+  };
+  return names;
+}
+
+bool isStructural(const std::string& name) {
+  const std::string part = name.substr(0, name.find_first_of(".["));
+  const auto& names = structuralNames();
+  return std::find(names.begin(), names.end(), part) != names.end();
+}
+
+std::vector<std::string> parameterNames() {
+  std::vector<std::string> names;
+  for (const Parameter& parameter : parameters()) names.push_back(parameter.name);
+  return names;
+}
+
+std::string quoted(const std::string& text) { return "'" + text + "'"; }
+
+}  // namespace
+
+const std::vector<Parameter>& parameters() {
+  static const std::vector<Parameter> all = {
+      parameter("sensitivities.gravity", nullptr, anyNumber,
+                [](auto& organ) { return &organ.bending.sensitivities.gravity; }),
+      parameter("sensitivities.light_direction", nullptr, anyNumber,
+                [](auto& organ) { return &organ.bending.sensitivities.light_direction; }),
+      parameter("sensitivities.point_source", nullptr, anyNumber,
+                [](auto& organ) { return &organ.bending.sensitivities.point_source; }),
+      parameter("sensitivities.softening_length", &dimension::length, atLeast(0),
+                [](auto& organ) { return &organ.bending.sensitivities.softening_length; }),
+      parameter("proprioception_length", &dimension::length, atLeast(0),
+                [](auto& organ) { return &organ.bending.proprioception_length; }),
+      parameter("growth.rate", &dimension::rate, atLeast(0),
+                [](auto& organ) { return std::visit([](auto& profile) { return &profile.rate; }, organ.profile); }),
+      parameter("source.strength", nullptr, anyNumber,
+                [](auto& organ) -> Value<std::remove_reference_t<decltype(organ)>> {
+                  return organ.source ? &organ.source->strength : nullptr;
+                }),
+  };
+  return all;
+}
+
+const Parameter* findParameter(const std::string& name) {
+  const auto& all = parameters();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Parameter& p) { return p.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+std::string whyUnknown(const std::string& name) {
+  const std::vector<std::string> names = parameterNames();
+  if (const std::string* meant = nearestName(name, names)) {
+    return quoted(name) + " is no parameter; did you mean " + quoted(*meant) + "?";
+  }
+  if (isStructural(name)) {
+    return quoted(name) + " is structural: organs are built with it; change it in the scenario and start again";
+  }
+  std::string known;
+  for (const std::string& one : names) known += (known.empty() ? "" : ", ") + quoted(one);
+  return quoted(name) + " is no parameter; known are " + known;
+}
+
+std::optional<std::string> findFault(const ParameterCommand& command) {
+  const Parameter* parameter = findParameter(command.name);
+  if (!parameter) return whyUnknown(command.name);
+  if (parameter->range.contains(command.value)) return std::nullopt;
+  const char* unit = parameter->dimension ? parameter->dimension->unit : "";
+  std::ostringstream text;
+  text << command.name << " " << command.value << (*unit ? " " : "") << unit << " is out of range; "
+       << parameter->range.describe(unit);
+  return text.str();
+}
+
+std::optional<std::string> findFault(const ParameterCommand& command, const std::vector<OrganScenario>& organs) {
+  if (auto fault = findFault(command)) return fault;
+  const Parameter& parameter = *findParameter(command.name);
+  bool is_known = false;
+  for (const OrganScenario& organ : organs) {
+    if (!addresses(command, organ)) continue;
+    is_known = true;
+    if (!parameter.get(organ)) return "organ " + quoted(organ.id) + " has no " + command.name;
+  }
+  if (is_known) return std::nullopt;
+  return "there is no organ " + quoted(command.organ) + "; give its id, or " + quoted(kAllOrgans);
+}
+
+bool addresses(const ParameterCommand& command, const OrganScenario& organ) {
+  return command.organ == kAllOrgans || command.organ == organ.id;
+}
+
+}  // namespace sensory_growth::simulation
