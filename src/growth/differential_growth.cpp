@@ -23,15 +23,14 @@ void addToRestBending(rod::Bend& bend, const Eigen::Vector2d& increment) {
 
 }  // namespace
 
-double drive(const BendingLaw& law, const Environment& environment, const rod::Rod& rod,
-             std::vector<Eigen::Vector2d>& f) {
-  const CueField field(law.sensitivities, environment);
+double drive(const rod::Rod& rod, const CueFields& perceived, std::vector<Eigen::Vector2d>& f) {
   f.assign(rod.size(), Eigen::Vector2d::Zero());
   double largest_square = 0.0;
   for (std::size_t j = rod.firstBend(); j < rod.size(); ++j) {
-    const rod::Vector3 section = rod.bendFrame(j).conjugate() * field.at(rod.vertices[j].position);
-    f[j] = Eigen::Vector2d(-section.y(), section.x()) * inverseRadius(rod, j);
-    largest_square = std::max(largest_square, section.head<2>().squaredNorm());
+    Eigen::Vector2d delta = Eigen::Vector2d::Zero();
+    for (const SectionField& cue : perceived) delta += cue[j];
+    f[j] = Eigen::Vector2d(-delta.y(), delta.x()) * inverseRadius(rod, j);
+    largest_square = std::max(largest_square, delta.squaredNorm());
   }
   return std::sqrt(largest_square);
 }

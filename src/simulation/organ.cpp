@@ -60,7 +60,8 @@ const OrganReport& Organ::advance(double dt, const growth::Environment& environm
   double longest_allowed = dt;
   while (remaining > 0.0) {
     if (longest_allowed < smallest) return giveUp(OrganFault::relaxation);
-    const double limit = std::min(longestPart(environment), longest_allowed);
+    const double time = environment.time + (dt - remaining);
+    const double limit = std::min(longestPart(environment, time), longest_allowed);
     if (!(limit >= smallest)) return giveUp(OrganFault::step_limits);
     // A remainder is cut into equal parts, so that none is a sliver.
     const double parts = std::max(1.0, std::ceil(remaining / limit * (1.0 - 1e-12)));
@@ -70,7 +71,7 @@ const OrganReport& Organ::advance(double dt, const growth::Environment& environm
     const bool is_first = report_.substeps == 0 && !weight_changed_before_step_;
     rod::Rod& before_part = is_first ? before_step_ : before_part_;
     if (!is_first) before_part_ = rod_;
-    const OrganFault fault = growAndRelax(part, environment);
+    const OrganFault fault = growAndRelax(part, environment, time);
     if (fault == OrganFault::too_many_elements) return giveUp(fault);
     if (fault == OrganFault::none) {
       remaining = parts > 1.0 ? remaining - part : 0.0;
@@ -111,7 +112,7 @@ void Organ::begin() {
 }
 
 /// Expects rates_ and drive_ at the start of the part, as longestPart() leaves them.
-OrganFault Organ::growAndRelax(double dt, const growth::Environment& environment) {
+OrganFault Organ::growAndRelax(double dt, const growth::Environment& environment, double time) {
   const growth::GrowthStrain& strain = scenario_.elongation ? elongation_.strain(scenario_.profile, rod_, rates_, dt)
                                                             : elongation_.strainAtFixedLength(rod_, rates_, dt);
   if (scenario_.elongation) growth::elongate(rod_, strain);
@@ -123,7 +124,8 @@ OrganFault Organ::growAndRelax(double dt, const growth::Environment& environment
   if ((moves ? move(dt / growth_per_second_) : relax_predicted()) != OrganFault::none) return OrganFault::relaxation;
 
   if (stepping_.second_order) {
-    growth::drive(scenario_.bending, environment, rod_, new_drive_);
+    growth::sense(scenario_.senses, environment, time + dt, rod_, cues_);
+    growth::drive(rod_, cues_, new_drive_);
     growth::correct(rod_, scenario_.bending, strain, drive_, new_drive_);
     rod_.rebuild();
     if (!moves && relax() != OrganFault::none) return OrganFault::relaxation;
@@ -176,11 +178,12 @@ OrganFault Organ::take(const mechanics::RelaxationReport& relaxation) {
 }
 
 /// Leaves the growth rates and the drive of the organ as it stands in rates_ and drive_.
-double Organ::longestPart(const growth::Environment& environment) {
+double Organ::longestPart(const growth::Environment& environment, double time) {
   const StepLimits& limits = stepping_.limits;
   const growth::BendingLaw& law = scenario_.bending;
   growth::elementRates(scenario_.profile, rod_, rates_);
-  const double differential_growth = growth::drive(law, environment, rod_, drive_);
+  growth::sense(scenario_.senses, environment, time, rod_, cues_);
+  const double differential_growth = growth::drive(rod_, cues_, drive_);
   report_.largest_differential_growth = std::max(report_.largest_differential_growth, differential_growth);
 
   double fastest_growth = 0.0;

@@ -54,13 +54,13 @@ std::string quoted(const std::string& text) { return "'" + text + "'"; }
 const std::vector<Parameter>& parameters() {
   static const std::vector<Parameter> all = {
       parameter("sensitivities.gravity", nullptr, anyNumber,
-                [](auto& organ) { return &organ.bending.sensitivities.gravity; }),
+                [](auto& organ) { return &organ.senses.gravity; }),
       parameter("sensitivities.light_direction", nullptr, anyNumber,
-                [](auto& organ) { return &organ.bending.sensitivities.light_direction; }),
+                [](auto& organ) { return &organ.senses.light_direction; }),
       parameter("sensitivities.point_source", nullptr, anyNumber,
-                [](auto& organ) { return &organ.bending.sensitivities.point_source; }),
+                [](auto& organ) { return &organ.senses.point_source; }),
       parameter("sensitivities.softening_length", &dimension::length, atLeast(0),
-                [](auto& organ) { return &organ.bending.sensitivities.softening_length; }),
+                [](auto& organ) { return &organ.senses.softening_length; }),
       parameter("proprioception_length", &dimension::length, atLeast(0),
                 [](auto& organ) { return &organ.bending.proprioception_length; }),
       parameter("growth.rate", &dimension::rate, atLeast(0),

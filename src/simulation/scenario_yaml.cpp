@@ -147,12 +147,12 @@ void readGrowth(YamlReader& in, OrganScenario& organ) {
   organ.profile = (*read)(in);
 }
 
-void readSensitivities(YamlReader& in, growth::Sensitivities& sensitivities) {
-  sensitivities.gravity = in.number("gravity", anyNumber);
-  sensitivities.light_direction = in.number("light_direction", anyNumber);
-  sensitivities.point_source = in.number("point_source", anyNumber);
-  if (std::abs(sensitivities.point_source) > 0.0 || in.has("softening_length")) {
-    sensitivities.softening_length = in.quantity("softening_length", dimension::length, atLeast(0));
+void readSensitivities(YamlReader& in, growth::Senses& senses) {
+  senses.gravity = in.number("gravity", anyNumber);
+  senses.light_direction = in.number("light_direction", anyNumber);
+  senses.point_source = in.number("point_source", anyNumber);
+  if (std::abs(senses.point_source) > 0.0 || in.has("softening_length")) {
+    senses.softening_length = in.quantity("softening_length", dimension::length, atLeast(0));
   }
 }
 
@@ -183,7 +183,7 @@ OrganScenario readOrgan(YamlReader& in, RelaxationMethod relaxation, IdLines& id
   in.section("material", kRequired, [&](YamlReader& material) { readMaterial(material, relaxation, organ.section); });
   in.section("growth", kRequired, [&](YamlReader& growth) { readGrowth(growth, organ); });
   in.section("sensitivities", kRequired,
-             [&](YamlReader& sensitivities) { readSensitivities(sensitivities, organ.bending.sensitivities); });
+             [&](YamlReader& sensitivities) { readSensitivities(sensitivities, organ.senses); });
   organ.bending.proprioception_length = in.quantity("proprioception_length", dimension::length, atLeast(0));
   in.section("division", kRequired, [&](YamlReader& division) { readDivision(division, relaxation, organ); });
   readLoads(in, relaxation, organ);

@@ -56,6 +56,7 @@ StepReport Simulation::step() {
                        describe(failed->report())};
   }
   ++step_index_;
+  environment_.time = time();
   applyDue();
   return {};
 }

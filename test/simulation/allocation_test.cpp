@@ -46,7 +46,7 @@ Simulation shoot(RelaxationMethod relaxation) {
   OrganScenario& organ = scenario.organs.front();
   organ.section = support::section(0.03, 1.0, 1.0);
   organ.profile = growth::LogisticProfile{1.0, 0.4, 15.0};
-  organ.bending.sensitivities = {0.05, 0.1, 0.1, 0.01};
+  organ.senses = {0.05, 0.1, 0.1, 0.01};
   organ.bending.proprioception_length = 0.01;
   Simulation simulation(scenario);
   simulation.apply({StimulusKind::point_source, StimulusOperation::add, "lamp", {1.0, 2.0, 0.5}, 1.0});

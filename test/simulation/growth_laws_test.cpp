@@ -42,7 +42,7 @@ rod::Rod steadyShoot(std::size_t elements) {
   Scenario scenario = kinematicScenario(0.2, elements);
   OrganScenario& organ = scenario.organs.front();
   organ.elongation = false;
-  organ.bending.sensitivities.gravity = 0.3;
+  organ.senses.gravity = 0.3;
   organ.bending.proprioception_length = 0.06;
   return grown(scenario, 250);
 }
@@ -66,7 +66,7 @@ TEST(GraviProprioceptiveShoot, DecaysExponentiallyFromASmallTilt) {
   OrganScenario& organ = scenario.organs.front();
   organ.base.frame = rod::exp({0.0, 0.01, 0.0});
   organ.elongation = false;
-  organ.bending.sensitivities.gravity = 0.05;
+  organ.senses.gravity = 0.05;
   organ.bending.proprioception_length = 0.05;
   EXPECT_NEAR(tipAngle(grown(scenario, 250)) / 0.01, std::exp(-1.0), 1e-4);
 }
@@ -87,7 +87,7 @@ double oscillationError(int steps, bool second_order) {
   OrganScenario& organ = scenario.organs.front();
   organ.base.frame = rod::exp({0.0, 0.01, 0.0});
   organ.elongation = false;
-  organ.bending.sensitivities.gravity = 0.1;
+  organ.senses.gravity = 0.1;
   return std::abs(tipAngle(grown(scenario, steps)) / 0.01 - -0.210059);
 }
 
@@ -110,7 +110,7 @@ rod::Rod apicalPhototropism(double step, double longest) {
   organ.elements = static_cast<std::size_t>(std::lround(1.0 / longest));
   organ.longest_element = longest * (1.0 + 1e-9);
   organ.profile = growth::ApicalFlatProfile{1.0, 1.0};
-  organ.bending.sensitivities.light_direction = 0.05;
+  organ.senses.light_direction = 0.05;
   organ.bending.proprioception_length = 0.01;
   return grown(scenario, std::lround(1.0 / step));
 }
@@ -144,13 +144,13 @@ class RolledOrgan : public testing::TestWithParam<double> {
 
 TEST_P(RolledOrgan, ShootsLiftTheirTip) {
   Scenario s = scenario();
-  s.organs.front().bending.sensitivities.gravity = 0.2;
+  s.organs.front().senses.gravity = 0.2;
   EXPECT_NEAR(tip(grown(s, 10)).z(), 0.239, 5e-4);  // model.md 4.3
 }
 
 TEST_P(RolledOrgan, LampsDrawTheTipTowardsThem) {
   Scenario s = scenario();
-  s.organs.front().bending.sensitivities.point_source = 0.2;
+  s.organs.front().senses.point_source = 0.2;
   s.protocol = {{0.0, {StimulusKind::point_source, StimulusOperation::add, "lamp", {0.5, 3.0, 4.0}, 1.0}}};
   const Vector3 end = tip(grown(s, 10));
   EXPECT_GT(end.y(), 0.05);
@@ -167,7 +167,7 @@ TEST_P(RolledOrgan, CentrelineDoesNotDependOnRoll) {
     OrganScenario& organ = s.organs.front();
     organ.base.frame = frame;
     organ.section = support::section(0.05, 1.0, 2.0);
-    organ.bending.sensitivities = {0.1, 0.2, 0.1, 0.01};
+    organ.senses = {0.1, 0.2, 0.1, 0.01};
     organ.bending.proprioception_length = 0.02;
     s.protocol = {{0.0, {StimulusKind::point_source, StimulusOperation::add, "lamp", {1.0, 1.0, 0.3}, 1.0}},
                   {0.0, {StimulusKind::light_direction, StimulusOperation::add, "sun", {0.2, -1.0, 0.5}, 1.0}}};
@@ -194,7 +194,7 @@ TEST(ElasticOrgan, TurnsRigidlyWithBaseGravityAndCues) {
     organ.section = support::section(0.05, 1.0, 2.0);
     organ.loads.tip_force = turn * Vector3(0.1, -0.2, 0.1);
     organ.rest_curvature = {0.2, -0.1, 0.6};
-    organ.bending.sensitivities = {0.1, 0.2, 0.1, 0.01};
+    organ.senses = {0.1, 0.2, 0.1, 0.01};
     organ.bending.proprioception_length = 0.02;
     s.protocol = {
         {0.0, {StimulusKind::point_source, StimulusOperation::add, "lamp", turn * Vector3(1.0, 1.0, 0.3), 1.0}},
@@ -248,7 +248,7 @@ Vector3 elasticTip(int steps) {
   scenario.protocol = {{0.0, {StimulusKind::point_source, StimulusOperation::add, "lamp", {1.0, 2.0, 1.0}, 1.0}}};
   OrganScenario& organ = scenario.organs.front();
   organ.section = support::section(0.05, 1.0, 1.5);
-  organ.bending.sensitivities = {0.15, 0.0, 0.05, 0.01};
+  organ.senses = {0.15, 0.0, 0.05, 0.01};
   organ.bending.proprioception_length = 0.03;
   return tip(grown(scenario, steps));
 }
@@ -266,7 +266,7 @@ TEST(ElasticOrgan, WarmStartNeedsAboutTwoIterations) {
   scenario.gravity = -Vector3::UnitZ();
   OrganScenario& organ = scenario.organs.front();
   organ.section = support::section(0.02, 1.0, 0.1);
-  organ.bending.sensitivities.gravity = 0.1;
+  organ.senses.gravity = 0.1;
   organ.bending.proprioception_length = 0.02;
   organ.longest_element = 1.5 / 45;
   Simulation simulation(scenario);

@@ -23,7 +23,7 @@ Scenario shoot(RelaxationMethod method, double step) {
   scenario.gravity = -Vector3::UnitZ();
   OrganScenario& organ = scenario.organs.front();
   organ.section = support::section(0.1, 1.0, 1.0);
-  organ.bending.sensitivities.gravity = 0.2;
+  organ.senses.gravity = 0.2;
   organ.bending.proprioception_length = 0.02;
   return scenario;
 }

@@ -116,10 +116,10 @@ TEST(ScenarioYaml, EveryKeyArrivesInSi) {
   EXPECT_DOUBLE_EQ(logistic.zone_length, 0.01);
   EXPECT_EQ(logistic.steepness, 12.0);
   EXPECT_FALSE(organ.elongation);
-  EXPECT_EQ(organ.bending.sensitivities.gravity, 0.1);
-  EXPECT_EQ(organ.bending.sensitivities.light_direction, -0.2);
-  EXPECT_EQ(organ.bending.sensitivities.point_source, 0.3);
-  EXPECT_DOUBLE_EQ(organ.bending.sensitivities.softening_length, 0.0015);
+  EXPECT_EQ(organ.senses.gravity, 0.1);
+  EXPECT_EQ(organ.senses.light_direction, -0.2);
+  EXPECT_EQ(organ.senses.point_source, 0.3);
+  EXPECT_DOUBLE_EQ(organ.senses.softening_length, 0.0015);
   EXPECT_DOUBLE_EQ(organ.bending.proprioception_length, 6e-5);
   EXPECT_DOUBLE_EQ(organ.longest_element, 7e-4);
   EXPECT_EQ(organ.division, rod::DivisionMode::keep_positions);
@@ -217,7 +217,7 @@ TEST(ScenarioYaml, AbsentKeysHaveTheirDocumentedDefaults) {
   EXPECT_TRUE(organ.elongation);
   EXPECT_FALSE(organ.section.inextensible);
   EXPECT_DOUBLE_EQ(organ.section.shear_correction, 0.9642857142857143);
-  EXPECT_EQ(organ.bending.sensitivities.softening_length, 0.0);
+  EXPECT_EQ(organ.senses.softening_length, 0.0);
   EXPECT_EQ(organ.division, rod::DivisionMode::keep_strain);
   EXPECT_EQ(organ.base_support, rod::BaseSupport::clamped);
   EXPECT_TRUE(organ.loads.tip_force.isZero(0.0));

@@ -39,7 +39,7 @@ Scenario shoot() {
   scenario.stepping.limits = {};
   OrganScenario& organ = scenario.organs.front();
   organ.section = support::section(0.03, 1.0, 1.0);
-  organ.bending.sensitivities = {0.05, 0.1, 0.1, 0.01};
+  organ.senses = {0.05, 0.1, 0.1, 0.01};
   organ.bending.proprioception_length = 0.01;
   organ.longest_element = 0.06;
   return scenario;
@@ -63,7 +63,7 @@ TEST(Simulation, TurnsTheTipTowardsALampAndFollowsWhenItMoves) {
   Scenario scenario = shoot();
   scenario.organs.front().base.frame = rod::Quaternion::Identity();
   scenario.organs.front().section = support::section(0.03, 1.0, 0.0);
-  scenario.organs.front().bending.sensitivities.point_source = 0.3;
+  scenario.organs.front().senses.point_source = 0.3;
   Simulation simulation(scenario);
   const auto tipX = [&] { return (simulation.organs().front().rod().apex().frame * Vector3::UnitZ()).x(); };
 
@@ -204,7 +204,7 @@ TEST(Simulation, AFailedStepChangesNothingWithThreadsEither) {
   for (const std::size_t weak : {2u, 4u}) {  // they curl far beyond what three elements resolve
     scenario.organs[weak].elements = 3;
     scenario.organs[weak].longest_element = kUnlimited;
-    scenario.organs[weak].bending.sensitivities = {0.0, 0.0, 20.0, 0.0};
+    scenario.organs[weak].senses = {0.0, 0.0, 20.0, 0.0};
   }
   const auto run = [&](int threads) {
     Simulation simulation(scenario, threads);
@@ -276,7 +276,7 @@ TEST(StepLimits, CutAStepIntoTheFewestPartsThatKeepThem) {
             4);
   // Light from above, sensitivity 0.2 on radius 0.05: 4 rad per unit length and strain at first, 0.2 per bend.
   const auto lit = [](Scenario& s) {
-    s.organs.front().bending.sensitivities.light_direction = 0.2;
+    s.organs.front().senses.light_direction = 0.2;
     s.protocol = {{0.0, {StimulusKind::light_direction, StimulusOperation::add, "sky", Vector3::UnitZ(), 1.0}}};
   };
   EXPECT_EQ(partsWith([&](Scenario& s) {
@@ -322,11 +322,11 @@ TEST(Simulation, IsInEquilibriumAfterDivisions) {
 TEST(Simulation, SensesGravityWithoutWeight) {
   Scenario scenario = shoot();
   scenario.weight = false;
-  scenario.organs.front().bending.sensitivities = {};
+  scenario.organs.front().senses = {};
   Simulation still(scenario);
   ASSERT_TRUE(still.step().ok);
   EXPECT_NEAR(still.organs().front().rod().vertices.back().position.z(), 0.0, 1e-12);
-  scenario.organs.front().bending.sensitivities.gravity = 0.1;
+  scenario.organs.front().senses.gravity = 0.1;
   Simulation lifting(scenario);
   ASSERT_TRUE(lifting.step().ok);
   EXPECT_GT(lifting.organs().front().rod().vertices.back().position.z(), 0.05);
@@ -334,7 +334,7 @@ TEST(Simulation, SensesGravityWithoutWeight) {
 
 TEST(Simulation, ReportsDifferentialGrowthThatTissueCannotGive) {
   Scenario scenario = kinematicScenario(0.001, 20);
-  scenario.organs.front().bending.sensitivities.gravity = 1.5;
+  scenario.organs.front().senses.gravity = 1.5;
   Simulation simulation(scenario);
   ASSERT_TRUE(simulation.step().ok);
   EXPECT_NEAR(simulation.organs().front().report().largest_differential_growth, 1.5, 1e-9);
@@ -374,7 +374,7 @@ TEST(Simulation, AFailedStepChangesNothingAndSaysWhy) {
   weak.id = "weak";
   weak.elements = 3;
   weak.longest_element = kUnlimited;
-  weak.bending.sensitivities = {0.0, 20.0, 0.0, 0.0};  // curls far beyond what three elements resolve
+  weak.senses = {0.0, 20.0, 0.0, 0.0};  // curls far beyond what three elements resolve
   scenario.stepping.limits.bend_angle = scenario.stepping.limits.total_angle = kUnlimited;
   Simulation simulation(scenario);
   simulation.apply({StimulusKind::light_direction, StimulusOperation::add, "sun", {0.0, 1.0, 0.0}, 1.0});
@@ -424,7 +424,7 @@ TEST(Simulation, RefusesOrgansThatCannotBeBuilt) {
 TEST(Simulation, KinematicOrgansIgnoreTheirWeight) {
   Scenario scenario = shoot();
   scenario.relaxation = RelaxationMethod::kinematics;
-  scenario.organs.front().bending.sensitivities = {};
+  scenario.organs.front().senses = {};
   Simulation simulation(scenario);
   for (int i = 0; i < 5; ++i) ASSERT_TRUE(simulation.step().ok);
   EXPECT_NEAR(simulation.organs().front().rod().vertices.back().position.z(), 0.0, 1e-14);
@@ -441,7 +441,7 @@ TEST(Simulation, AnOrganThatSwingsAboutTheVerticalDoesNotFail) {
   organ.length = 1.0;
   organ.section = support::section(0.02, 1.0, 1.0);
   organ.profile = growth::ApicalFlatProfile{1.0, 0.6};
-  organ.bending.sensitivities.gravity = 0.4 * 0.02;
+  organ.senses.gravity = 0.4 * 0.02;
   organ.bending.proprioception_length = 0.4 * 0.02;
   organ.longest_element = 0.1;
   Simulation simulation(scenario);

@@ -1,60 +1,79 @@
 #pragma once
 
-/// From what surrounds an organ to the differential growth vector at a point of it (model.md 4.3).
+/// From what an organ senses to the differential growth that each cue asks for (model.md 4.3 and 5).
 
-#include <string>
+#include <array>
+#include <cstddef>
 #include <vector>
 
-#include "sensory_growth/rod/rotations.h"
+#include <Eigen/Core>
+
+#include "sensory_growth/growth/environment.h"
+#include "sensory_growth/rod/rod.h"
 
 namespace sensory_growth::growth {
 
-/// A lamp, or anything else that attracts (strength > 0) or repels from one place.
-struct PointSource {
-  std::string id;                                ///< unique among point sources
-  rod::Vector3 position = rod::Vector3::Zero();  ///< [m]
-  double strength = 1.0;                         ///< [-]
-};
+enum class Cue { gravity, light_direction, point_source, oscillator };
+constexpr std::size_t kCues = 4;
 
-/// Parallel light, such as that of the sun.
-struct LightDirection {
-  std::string id;                                ///< unique among light directions
-  rod::Vector3 towards = rod::Vector3::UnitX();  ///< unit vector that points to the light
-  double strength = 1.0;                         ///< [-]
-};
+const char* name(Cue cue);
 
-/// Everything that can be sensed.
-struct Environment {
-  rod::Vector3 down = -rod::Vector3::UnitZ();  ///< unit vector of gravity as it is sensed; zero in weightlessness
-  std::vector<PointSource> point_sources;
-  std::vector<LightDirection> light_directions;
+/// A clock within the tissue that makes an organ circumnutate: it asks for growth towards a direction that turns in the
+/// cross-section, from d1 to d2 for positive periods.
+struct Oscillator {
+  double amplitude = 0.0;       ///< [-]
+  double period = 1.0;          ///< of growth time [s]; negative turns from d2 to d1
+  double phase = 0.0;           ///< angle from d1 at time 0, at the apex [rad]
+  double phase_gradient = 0.0;  ///< by which tissue lags behind the apex, per rest length [rad/m]
 };
 
 /// How strongly an organ answers each cue. All sensitivities are dimensionless; a negative one turns away.
-struct Sensitivities {
+struct Senses {
   double gravity = 0.0;  ///< > 0 for a shoot (grows up), < 0 for a root
   double light_direction = 0.0;
   double point_source = 0.0;
   double softening_length =
       0.0;  ///< distance to a point source below which its pull fades, so that it stays finite [m]
+  Oscillator oscillator;
 };
 
-/// The lab-frame differential growth vector [-] as a function of place. Must not outlive its arguments.
+/// Somewhere in an organ.
+struct Place {
+  rod::Vector3 position;
+  rod::Quaternion frame;
+  double from_apex = 0.0;  ///< along the rest arc length [m]
+};
+
+/// Differential growth vector [-] of every cue at one place: components along d1 and d2 there.
+using SectionCues = std::array<Eigen::Vector2d, kCues>;
+
+/// What the cues ask for at one time, as a function of place. Must not outlive its arguments.
 class CueField {
  public:
-  CueField(const Sensitivities& sensitivities, const Environment& environment);
+  CueField(const Senses& senses, const Environment& environment, double time);
 
   /// Finite for every finite input.
-  rod::Vector3 at(const rod::Vector3& position) const;
+  SectionCues at(const Place& place) const;
 
  private:
-  const Sensitivities& sensitivities_;
+  rod::Vector3 towardsPointSources(const rod::Vector3& position) const;
+  Eigen::Vector2d oscillation(double from_apex) const;
+
+  const Senses& senses_;
   const std::vector<PointSource>& point_sources_;
-  rod::Vector3 everywhere_;  ///< of the cues that come from afar
+  double later_;                 ///< than the time for which they stand [s]
+  rod::Vector3 up_;              ///< of gravity alone, the same everywhere
+  rod::Vector3 towards_lights_;  ///< the same for parallel light
+  double apical_phase_;          ///< of the oscillator [rad]
 };
 
-/// The field at one place.
-rod::Vector3 differentialGrowth(const Sensitivities& sensitivities, const Environment& environment,
-                                const rod::Vector3& position);
+/// Components along d1 and d2 of the frame of every bend; size n, zero at a bend without stiffness.
+using SectionField = std::vector<Eigen::Vector2d>;
+
+/// The field of every cue; cues that an organ does not answer have the field zero.
+using CueFields = std::array<SectionField, kCues>;
+
+/// What every bend senses of every cue there and then, with its actual frame and position.
+void sense(const Senses& senses, const Environment& environment, double time, const rod::Rod& rod, CueFields& cues);
 
 }  // namespace sensory_growth::growth

@@ -16,9 +16,8 @@
 
 namespace sensory_growth::growth {
 
-/// What makes the organ bend.
+/// How the organ bends by what it senses.
 struct BendingLaw {
-  Sensitivities sensitivities;
   double proprioception_length = 0.0;  ///< gamma [m]; gamma / R straightens the organ per unit growth strain
 };
 
@@ -31,11 +30,10 @@ inline double inverseRadius(const rod::Rod& rod, std::size_t bend) {
          (below.rest_length * below.section.radius + above.rest_length * above.section.radius);
 }
 
-/// f of every bend [1/m per unit growth strain], sensed with the actual frames and positions; size n, zero where a bend
-/// has no stiffness. Returns the
-/// largest differential growth in a cross-section [-]: above 1, tissue on one side would have to shrink (model.md 4.1).
-double drive(const BendingLaw& law, const Environment& environment, const rod::Rod& rod,
-             std::vector<Eigen::Vector2d>& f);
+/// f of every bend [1/m per unit growth strain] from what each of them perceives; size n, zero where a bend has no
+/// stiffness. Returns the largest differential growth in a cross-section [-]: above 1, tissue on one side would have to
+/// shrink (model.md 4.1).
+double drive(const rod::Rod& rod, const CueFields& perceived, std::vector<Eigen::Vector2d>& f);
 
 /// First-order exponential step of the rest curvature with the drive held at f: exact in the stiff proprioceptive term.
 void predict(rod::Rod& rod, const BendingLaw& law, const GrowthStrain& strain, const std::vector<Eigen::Vector2d>& f);

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "sensory_growth/growth/cues.h"
+#include "sensory_growth/growth/environment.h"
 #include "sensory_growth/mechanics/energy.h"
 #include "sensory_growth/mechanics/surroundings.h"
 #include "sensory_growth/rod/rod.h"

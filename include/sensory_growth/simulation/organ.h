@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "sensory_growth/growth/cues.h"
 #include "sensory_growth/growth/differential_growth.h"
 #include "sensory_growth/growth/elongation.h"
 #include "sensory_growth/mechanics/dynamics.h"
@@ -49,8 +50,8 @@ class Organ {
   /// fault.
   Organ(const OrganScenario& organ, const Scenario& scenario);
 
-  /// Advances by dt [s] of growth time in as many parts as the step limits ask for. On failure (report.ok() is false)
-  /// the organ is left as it was before the call.
+  /// Advances by dt [s] of growth time, from environment.time, in as many parts as the step limits ask for. On
+  /// failure (report.ok() is false) the organ is left as it was before the call.
   const OrganReport& advance(double dt, const growth::Environment& environment);
 
   /// Takes back the last advance(), its report included. What was set before it stays set.
@@ -79,8 +80,8 @@ class Organ {
   std::vector<double> growthRates() const;
 
  private:
-  double longestPart(const growth::Environment& environment);
-  OrganFault growAndRelax(double dt, const growth::Environment& environment);
+  double longestPart(const growth::Environment& environment, double time);
+  OrganFault growAndRelax(double dt, const growth::Environment& environment, double time);
   OrganFault relax();
   OrganFault relaxFromAnywhere();
   OrganFault relaxInPassing();
@@ -98,6 +99,7 @@ class Organ {
   mechanics::StaticEquilibrium equilibrium_;
   mechanics::DynamicRelaxation dynamics_;
   growth::Elongation elongation_;
+  growth::CueFields cues_;
   std::vector<Eigen::Vector2d> drive_, new_drive_;
   std::vector<double> rates_;
   OrganReport report_, report_before_step_;

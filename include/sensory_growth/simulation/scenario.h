@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "sensory_growth/growth/cues.h"
 #include "sensory_growth/growth/differential_growth.h"
 #include "sensory_growth/growth/profile.h"
 #include "sensory_growth/mechanics/dynamics.h"
@@ -47,6 +48,7 @@ struct OrganScenario {
 
   growth::Profile profile = growth::UniformProfile{};
   bool elongation = true;  ///< off: the organ bends by growth but keeps its length (the AC model)
+  growth::Senses senses;
   growth::BendingLaw bending;
   std::optional<OrganSource> source;  ///< nothing: the others do not sense it
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "sensory_growth/growth/cues.h"
+#include "sensory_growth/growth/environment.h"
 #include "sensory_growth/rod/rotations.h"
 
 namespace sensory_growth::simulation {
