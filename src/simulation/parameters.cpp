@@ -28,9 +28,9 @@ using Value = std::conditional_t<std::is_const_v<Organ>, const double, double>*;
 /// Parts of an organ or of the run that a simulation is built with; what follows a name after '.' belongs to it.
 const std::vector<std::string>& structuralNames() {
   static const std::vector<std::string> names = {
-      "id",         "base",      "length",     "elements", "radius", "material",   "rest_curvature",
-      "growth",     "division",  "tip_force",  "springs",  "walls",  "line_force", "tip_couple",
-      "held_apex",  "source",    "relaxation", "stepping", "weight", "duration",   "organs",
+      "id",        "base",     "length",     "elements", "radius", "material",   "rest_curvature",
+      "growth",    "division", "tip_force",  "springs",  "walls",  "line_force", "tip_couple",
+      "held_apex", "source",   "relaxation", "stepping", "weight", "duration",   "organs",
   };
   return names;
 }
@@ -53,8 +53,7 @@ std::string quoted(const std::string& text) { return "'" + text + "'"; }
 
 const std::vector<Parameter>& parameters() {
   static const std::vector<Parameter> all = {
-      parameter("sensitivities.gravity", nullptr, anyNumber,
-                [](auto& organ) { return &organ.senses.gravity; }),
+      parameter("sensitivities.gravity", nullptr, anyNumber, [](auto& organ) { return &organ.senses.gravity; }),
       parameter("sensitivities.light_direction", nullptr, anyNumber,
                 [](auto& organ) { return &organ.senses.light_direction; }),
       parameter("sensitivities.point_source", nullptr, anyNumber,

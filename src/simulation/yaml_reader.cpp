@@ -101,6 +101,15 @@ std::string YamlReader::identifier(const std::string& key) {
   return *text;
 }
 
+std::string YamlReader::uniqueIdentifier(const std::string& key, Lines& given) {
+  const std::string word = identifier(key);
+  const auto [first, is_new] = given.emplace(word, line(key));
+  if (!is_new && !word.empty()) {
+    addProblem(key, "'" + word + "' is already used on line " + std::to_string(first->second) + "; ids are unique");
+  }
+  return word;
+}
+
 bool YamlReader::flag(const std::string& key, std::optional<bool> fallback) {
   const std::string request = "give true or false";
   const std::optional<std::string> text = scalar(key, presence(fallback), request);

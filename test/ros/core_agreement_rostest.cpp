@@ -7,9 +7,9 @@
 namespace sensory_growth::node::testing {
 namespace {
 
-simulation::StimulusCommand commandOf(const AppliedStimulus& applied) {
-  return {applied.kind == AppliedStimulus::POINT_SOURCE ? simulation::StimulusKind::point_source
-                                                        : simulation::StimulusKind::light_direction,
+simulation::StimulusCommand commandOf(const AppliedCommand& applied) {
+  return {applied.kind == AppliedCommand::POINT_SOURCE ? simulation::StimulusKind::point_source
+                                                       : simulation::StimulusKind::light_direction,
           simulation::StimulusOperation::add, applied.id,
           rod::Vector3(applied.vector.x, applied.vector.y, applied.vector.z), applied.strength};
 }
@@ -29,11 +29,11 @@ TEST(CoreAgreement, StatesAreThoseOfTheCoreAlone) {
   };
 
   follow(0, 10);
-  const AppliedStimulus sun = node.send(lights, light(LightDirection::ADD, "sun", {3.0, 1.0, 2.0}, 0.7));
+  const AppliedCommand sun = node.send(lights, light(LightDirection::ADD, "sun", {3.0, 1.0, 2.0}, 0.7));
   EXPECT_EQ(sun.step_index, 10u);
   alone.apply(commandOf(sun));
   follow(10, 40);
-  const AppliedStimulus lit = node.send(lamps, lamp(PointSource::ADD, "lamp", {-0.1, 0.05, 0.1}, 1.3));
+  const AppliedCommand lit = node.send(lamps, lamp(PointSource::ADD, "lamp", {-0.1, 0.05, 0.1}, 1.3));
   EXPECT_EQ(lit.step_index, 40u);
   EXPECT_EQ(lit.vector.x, -0.1);
   alone.apply(commandOf(lit));

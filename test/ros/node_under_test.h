@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "sensory_growth/AppliedStimulus.h"
+#include "sensory_growth/AppliedCommand.h"
 #include "sensory_growth/Command.h"
 #include "sensory_growth/LightDirection.h"
 #include "sensory_growth/OrganState.h"
@@ -48,8 +48,8 @@ class NodeUnderTest {
     });
     subscribe<Status>("status", [this](const Status& status) { status_ = status; });
     subscribe<Stimuli>("stimuli", [this](const Stimuli& stimuli) { stimuli_ = stimuli; });
-    subscribe<AppliedStimulus>("applied_stimuli",
-                               [this](const AppliedStimulus& stimulus) { applied_.push_back(stimulus); });
+    subscribe<AppliedCommand>("applied_commands",
+                              [this](const AppliedCommand& stimulus) { applied_.push_back(stimulus); });
     for (const ros::Subscriber& subscriber : subscribers_) {
       waitFor("a publisher of " + subscriber.getTopic(), [&] { return subscriber.getNumPublishers() > 0; });
     }
@@ -123,8 +123,8 @@ class NodeUnderTest {
   }
 
   /// The command number `index` (from 0) that was taken at a step boundary.
-  AppliedStimulus applied(std::size_t index) {
-    AppliedStimulus found;
+  AppliedCommand applied(std::size_t index) {
+    AppliedCommand found;
     wait("applied stimulus " + std::to_string(index), [&] {
       if (applied_.size() <= index) return false;
       found = applied_[index];
@@ -140,7 +140,7 @@ class NodeUnderTest {
 
   /// Waits until `stimulus` is known to have been taken.
   template <typename Message>
-  AppliedStimulus send(ros::Publisher& publisher, const Message& stimulus) {
+  AppliedCommand send(ros::Publisher& publisher, const Message& stimulus) {
     const std::size_t before = appliedCount();
     publish(publisher, stimulus);
     return applied(before);
@@ -187,7 +187,7 @@ class NodeUnderTest {
   std::map<std::pair<std::uint32_t, std::uint64_t>, OrganState> states_;
   Status status_;
   Stimuli stimuli_;
-  std::vector<AppliedStimulus> applied_;
+  std::vector<AppliedCommand> applied_;
 
   std::vector<ros::Subscriber> subscribers_;  // last, so that callbacks end before what they touch
 };

@@ -73,7 +73,7 @@ TEST(Recording, HoldsEverythingThatIsNeededToRunTheSameAgain) {
   EXPECT_NE(parameters[0].data.find("growth_time_scale: 60\n"), std::string::npos);
   EXPECT_NE(parameters[0].data.find("version: "), std::string::npos);
 
-  const auto applied = readTopic<AppliedStimulus>(bag, "/sensory_growth/applied_stimuli");
+  const auto applied = readTopic<AppliedCommand>(bag, "/sensory_growth/applied_commands");
   ASSERT_EQ(applied.size(), 3u);
   EXPECT_EQ(applied[0].id, "early");
   EXPECT_EQ(applied[0].step_index, 0u);
@@ -120,7 +120,7 @@ TEST(Recording, ReplaysToTheSameNumbers) {
   // From the bag alone.
   const rosbag::Bag bag(stopped.path);
   const auto scenario = readTopic<std_msgs::String>(bag, "/sensory_growth/scenario");
-  const auto applied = readTopic<AppliedStimulus>(bag, "/sensory_growth/applied_stimuli");
+  const auto applied = readTopic<AppliedCommand>(bag, "/sensory_growth/applied_commands");
   ASSERT_EQ(scenario.size(), 1u);
   ASSERT_EQ(applied.size(), 1u);
   simulation::Simulation replay(simulation::parseScenario(scenario[0].data, "bag"));
@@ -133,8 +133,9 @@ TEST(Recording, ReplaysToTheSameNumbers) {
     expectSame(state, replay);
     if (state.step_index == applied[0].step_index) {
       const auto& v = applied[0].vector;
-      replay.apply({simulation::StimulusKind::light_direction, simulation::StimulusOperation::add, applied[0].id,
-                    rod::Vector3(v.x, v.y, v.z), applied[0].strength});
+      replay.apply(simulation::StimulusCommand{simulation::StimulusKind::light_direction,
+                                               simulation::StimulusOperation::add, applied[0].id,
+                                               rod::Vector3(v.x, v.y, v.z), applied[0].strength});
     }
   }
   std::filesystem::remove(stopped.path);

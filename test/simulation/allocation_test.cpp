@@ -49,8 +49,8 @@ Simulation shoot(RelaxationMethod relaxation) {
   organ.senses = {0.05, 0.1, 0.1, 0.01};
   organ.bending.proprioception_length = 0.01;
   Simulation simulation(scenario);
-  simulation.apply({StimulusKind::point_source, StimulusOperation::add, "lamp", {1.0, 2.0, 0.5}, 1.0});
-  simulation.apply({StimulusKind::light_direction, StimulusOperation::add, "sun", {0.0, 1.0, 1.0}, 1.0});
+  simulation.apply(StimulusCommand{StimulusKind::point_source, StimulusOperation::add, "lamp", {1.0, 2.0, 0.5}, 1.0});
+  simulation.apply(StimulusCommand{StimulusKind::light_direction, StimulusOperation::add, "sun", {0.0, 1.0, 1.0}, 1.0});
   return simulation;
 }
 

@@ -125,6 +125,9 @@ TEST(ScenarioYaml, EveryKeyArrivesInSi) {
   EXPECT_EQ(organ.division, rod::DivisionMode::keep_positions);
   expectNear(organ.loads.tip_force, {1e-3, 0.0, -2e-6});
   expectNear(organ.rest_curvature, {5.0, 20.0, -1.0});
+  ASSERT_TRUE(organ.source);
+  EXPECT_EQ(organ.source->label, 0.75);
+  EXPECT_EQ(organ.source->strength, -0.5);
 
   const OrganScenario& flat = s.organs[1];
   EXPECT_DOUBLE_EQ(flat.section.young_modulus, 1e9);
@@ -171,23 +174,34 @@ TEST(ScenarioYaml, LoadsAndSurroundingsArriveInSi) {
   EXPECT_FALSE(free_to_turn->frame);
 }
 
-void expectStimulus(const TimedStimulus& actual, double time, StimulusOperation operation, StimulusKind kind,
+void expectStimulus(const TimedCommand& actual, double time, StimulusOperation operation, StimulusKind kind,
                     const std::string& id, const Vector3& vector, double strength) {
   SCOPED_TRACE(id);
   EXPECT_DOUBLE_EQ(actual.time, time);
-  EXPECT_EQ(actual.command.operation, operation);
-  EXPECT_EQ(actual.command.kind, kind);
-  EXPECT_EQ(actual.command.id, id);
+  const auto& command = std::get<StimulusCommand>(actual.command);
+  EXPECT_EQ(command.operation, operation);
+  EXPECT_EQ(command.kind, kind);
+  EXPECT_EQ(command.id, id);
   if (operation == StimulusOperation::remove) return;
-  expectNear(actual.command.vector, vector);
-  EXPECT_EQ(actual.command.strength, strength);
+  expectNear(command.vector, vector);
+  EXPECT_EQ(command.strength, strength);
 }
 
-TEST(ScenarioYaml, StimuliAndProtocolBecomeTimedStimuli) {
-  const std::vector<TimedStimulus> p = loadScenario(good + "all_keys.yaml").protocol;
+void expectSetting(const TimedCommand& actual, double time, const std::string& organ, const std::string& name,
+                   double value) {
+  SCOPED_TRACE(name);
+  EXPECT_DOUBLE_EQ(actual.time, time);
+  const auto& command = std::get<ParameterCommand>(actual.command);
+  EXPECT_EQ(command.organ, organ);
+  EXPECT_EQ(command.name, name);
+  EXPECT_DOUBLE_EQ(command.value, value);
+}
+
+TEST(ScenarioYaml, StimuliAndProtocolBecomeTimedCommands) {
+  const std::vector<TimedCommand> p = loadScenario(good + "all_keys.yaml").protocol;
   using Operation = StimulusOperation;
   using Kind = StimulusKind;
-  ASSERT_EQ(p.size(), 8u);
+  ASSERT_EQ(p.size(), 11u);
   expectStimulus(p[0], 0, Operation::add, Kind::point_source, "lamp", {0.1, 0, 0.2}, 0.5);
   expectStimulus(p[1], 0, Operation::add, Kind::light_direction, "sun", {0, 0.6, 0.8}, -1);
   expectStimulus(p[2], 1800, Operation::change, Kind::point_source, "lamp", {0, 1, 0}, 2);
@@ -196,6 +210,10 @@ TEST(ScenarioYaml, StimuliAndProtocolBecomeTimedStimuli) {
   expectStimulus(p[5], 10800, Operation::add, Kind::light_direction, "moon", {0, 0, 1}, 0.1);
   expectStimulus(p[6], 86400, Operation::remove, Kind::point_source, "second_lamp", {}, 0);
   expectStimulus(p[7], 86400, Operation::remove, Kind::light_direction, "moon", {}, 0);
+  expectSetting(p[8], 90000, "flat_organ", "sensitivities.gravity", -0.25);
+  expectSetting(p[9], 90000, "all", "growth.rate", 1e-5);
+  EXPECT_DOUBLE_EQ(p[10].time, 93600);
+  expectNear(std::get<GravityCommand>(p[10].command).acceleration, {1.2, 0.0, -1.6});
 }
 
 TEST(ScenarioYaml, AbsentKeysHaveTheirDocumentedDefaults) {
@@ -224,6 +242,7 @@ TEST(ScenarioYaml, AbsentKeysHaveTheirDocumentedDefaults) {
   EXPECT_TRUE(organ.loads.line_force.isZero(0.0));
   EXPECT_TRUE(organ.loads.tip_couple.isZero(0.0));
   EXPECT_TRUE(organ.loads.surroundings.empty());
+  EXPECT_FALSE(organ.source);
   EXPECT_TRUE(organ.rest_curvature.isZero(0.0));
 
   const Scenario relaxed = loadScenario("../config/wheat_coleoptile.yaml");
@@ -283,6 +302,7 @@ organs:
     walls:
       - {point: [0 m, 0 m, -1 cm], normal: [0, 0, 1], stiffness: rigid}
     held_apex: {position: [0 m, 0 m, 29 mm], direction: [0, 0, 1], roll: 10 deg}
+    source: {label: 0.25, strength: 2}
 stimuli:
   point_sources:
     - {id: lamp, position: [10 cm, 0 m, 10 cm], strength: 1}
@@ -291,6 +311,8 @@ stimuli:
 protocol:
   - {at: 2 h, change: {light_direction: {id: sun, towards: [0, 1, 0], strength: 1}}}
   - {at: 3 h, remove: {point_source: {id: lamp}}}
+  - {at: 4 h, set: {parameter: {organ: first, name: growth.rate, value: 2 %/h}}}
+  - {at: 4 h, set: {gravity: {direction: [1, 0, 1], acceleration: 3 m/s^2}}}
 )";
 
 TEST(ScenarioYaml, TheUnspoiltScenarioIsValid) { EXPECT_EQ(list(problemsOf(valid)), "no problem"); }
@@ -445,7 +467,7 @@ INSTANTIATE_TEST_SUITE_P(
                "^is missing"},
         Spoilt{"at: 2 h, ", "", "protocol[0].at", "^is missing; give a time"},
         Spoilt{", remove: {point_source: {id: lamp}}", "", "protocol[1]",
-               "^needs exactly one of 'add', 'change' and 'remove'$"}));
+               "^needs exactly one of 'add', 'change', 'remove' and 'set'$"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Types, SpoiltScenario,
@@ -476,7 +498,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Spoilt{"poisson_ratio: 0.5", "poisson_ratio: 0.5, shear_modulus: 3 MPa", "organs[0].material",
                "^needs exactly one of 'poisson_ratio' and 'shear_modulus'$"},
-        Spoilt{"at: 3 h", "at: 1 h", "protocol[1].at", "^'1 h' is earlier than the entry before it, on line 34;"},
+        Spoilt{"at: 3 h", "at: 1 h", "protocol[1].at", "^'1 h' is earlier than the entry before it, on line 35;"},
         Spoilt{"remove: {point_source: {id: lamp}}", "add: {}, remove: {}", "protocol[1]", "needs exactly one of"},
         Spoilt{"remove: {point_source: {id: lamp}}", "remove: {}", "protocol[1].remove",
                "^needs exactly one of 'point_source' and 'light_direction'$"},
@@ -485,14 +507,37 @@ INSTANTIATE_TEST_SUITE_P(
         Spoilt{"remove: {point_source: {id: lamp}}", "remove: {light_direction: {id: lamp}}", "protocol[1].remove",
                "no light_direction 'lamp'"},
         Spoilt{"change: {light_direction: {id: sun,", "change: {light_direction: {id: moon,", "protocol[0].change",
-               "no light_direction 'moon'"}));
+               "no light_direction 'moon'"},
+        Spoilt{"organ: first", "organ: last", "protocol[2].set", "^there is no organ 'last'; give its id, or 'all'$"},
+        Spoilt{"- id: first", "- id: all", "organs[0].id", "^'all' means every organ in commands; give another id$"},
+        Spoilt{"{organ: first, name: growth.rate, value: 2 %/h}", "{organ: first, name: source.strength, value: 2 m}",
+               "protocol[2].set.parameter.value", "'2 m' is not a number without a unit"},
+        Spoilt{"value: 2 %/h", "value: -2 %/h", "protocol[2].set.parameter.value", "must be >= 0 1/s$"},
+        Spoilt{"value: 2 %/h", "value: 2 h", "protocol[2].set.parameter.value", "^'2 h' is a time; give a rate"},
+        Spoilt{"value: 2 %/h", "", "protocol[2].set.parameter.value", "^is missing; give a rate"},
+        Spoilt{"name: growth.rate", "name: growth.rat", "protocol[2].set.parameter.name",
+               "^'growth.rat' is no parameter; did you mean 'growth.rate'\\?$"},
+        Spoilt{"name: growth.rate", "name: growth.profile", "protocol[2].set.parameter.name",
+               "^'growth.profile' is structural: organs are built with it; change it in the scenario and start again$"},
+        Spoilt{"name: growth.rate", "name: elements", "protocol[2].set.parameter.name", "^'elements' is structural:"},
+        Spoilt{"name: growth.rate", "name: colour", "protocol[2].set.parameter.name",
+               "^'colour' is no parameter; known are 'sensitivities.gravity', .*'growth.rate'"},
+        Spoilt{"acceleration: 3 m/s^2", "acceleration: 3 m/s", "protocol[3].set.gravity.acceleration",
+               "give an acceleration"},
+        Spoilt{"acceleration: 3 m/s^2", "acceleration: 1e7 m/s^2", "protocol[3].set", "is more than 1e\\+06 m/s\\^2$"},
+        Spoilt{"{direction: [1, 0, 1], ", "{", "protocol[3].set.gravity.direction", "^is missing"},
+        Spoilt{"set: {gravity: {direction: [1, 0, 1], acceleration: 3 m/s^2}}", "set: {}", "protocol[3].set",
+               "^needs exactly one of 'parameter' and 'gravity'$"},
+        Spoilt{"source: {label: 0.25", "source: {label: 1.5", "organs[0].source.label", "must be >= 0 and <= 1$"},
+        Spoilt{"source: {label: 0.25, strength: 2}", "source: {label: 0.25}", "organs[0].source.strength",
+               "^is missing"}));
 
 TEST(ScenarioYaml, IdsAreUniqueWithinTheirKind) {
   std::string twice = valid;
   const std::string lamp = "    - {id: lamp, position: [10 cm, 0 m, 10 cm], strength: 1}\n";
   twice.insert(twice.find(lamp), lamp);
   EXPECT_EQ(list(problemsOf(twice)),
-            "test:31: stimuli.point_sources[1].id: 'lamp' is already used on line 30; ids are unique");
+            "test:32: stimuli.point_sources[1].id: 'lamp' is already used on line 31; ids are unique");
 
   std::string same_id_of_another_kind = valid;
   same_id_of_another_kind.replace(same_id_of_another_kind.find("id: lamp, pos"), 8, "id: sun");
@@ -501,7 +546,7 @@ TEST(ScenarioYaml, IdsAreUniqueWithinTheirKind) {
   const std::size_t begin = valid.find("  - id: first"), end = valid.find("stimuli:");
   std::string two_organs = valid;
   two_organs.insert(end, valid.substr(begin, end - begin));
-  EXPECT_EQ(list(problemsOf(two_organs)), "test:28: organs[1].id: 'first' is already used on line 10; ids are unique");
+  EXPECT_EQ(list(problemsOf(two_organs)), "test:29: organs[1].id: 'first' is already used on line 10; ids are unique");
 }
 
 TEST(ScenarioYaml, DuplicateKeyNamesBothLines) {
@@ -704,7 +749,7 @@ INSTANTIATE_TEST_SUITE_P(Files, UnreadableFile,
                                          BadFile{"not_yaml.yaml", ":3: not valid YAML: "}));
 
 TEST(ProtocolYaml, IsReadOnItsOwn) {
-  const std::vector<TimedStimulus> p = loadProtocol(good + "protocol.yaml");
+  const std::vector<TimedCommand> p = loadProtocol(good + "protocol.yaml");
   ASSERT_EQ(p.size(), 3u);
   expectStimulus(p[0], 0, StimulusOperation::add, StimulusKind::light_direction, "left", {-1, 0, 0}, 1);
   expectStimulus(p[1], 0, StimulusOperation::remove, StimulusKind::light_direction, "sun", {}, 0);

@@ -34,7 +34,7 @@ struct Senses {
   double point_source = 0.0;
   double softening_length =
       0.0;  ///< distance to a point source below which its pull fades, so that it stays finite [m]
-  Oscillator oscillator;
+  Oscillator oscillator = {};
 };
 
 /// Somewhere in an organ.

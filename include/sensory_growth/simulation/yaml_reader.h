@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -31,11 +32,16 @@ using Options = std::vector<std::pair<std::string, Value>>;
 class YamlReader {
  public:
   using Body = std::function<void(YamlReader&)>;
+  using Lines = std::map<std::string, int>;  ///< of words, where each stood first
 
   YamlReader(const YAML::Node& mapping, std::string path, std::vector<Problem>& problems);
 
   std::string text(const std::string& key, std::optional<std::string> fallback = {});
   std::string identifier(const std::string& key);  ///< a letter, then letters, digits, '_'
+
+  /// The same, refused if it is among those `given` before.
+  std::string uniqueIdentifier(const std::string& key, Lines& given);
+
   bool flag(const std::string& key, std::optional<bool> fallback = {});
   int count(const std::string& key, int low, int high, std::optional<int> fallback = {});
   double number(const std::string& key, const Range& range, std::optional<double> fallback = {});
