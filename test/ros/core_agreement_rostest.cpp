@@ -7,13 +7,6 @@
 namespace sensory_growth::node::testing {
 namespace {
 
-simulation::StimulusCommand commandOf(const AppliedCommand& applied) {
-  return {applied.kind == AppliedCommand::POINT_SOURCE ? simulation::StimulusKind::point_source
-                                                       : simulation::StimulusKind::light_direction,
-          simulation::StimulusOperation::add, applied.id,
-          rod::Vector3(applied.vector.x, applied.vector.y, applied.vector.z), applied.strength};
-}
-
 TEST(CoreAgreement, StatesAreThoseOfTheCoreAlone) {
   NodeUnderTest node;
   ros::Publisher lamps = node.handle().advertise<PointSource>("point_source", 10);
@@ -37,7 +30,16 @@ TEST(CoreAgreement, StatesAreThoseOfTheCoreAlone) {
   EXPECT_EQ(lit.step_index, 40u);
   EXPECT_EQ(lit.vector.x, -0.1);
   alone.apply(commandOf(lit));
-  follow(40, 70);
+  follow(40, 50);
+  const SetParameter::Response set = node.setParameter("shoot", "sensitivities.gravity", -0.4);
+  EXPECT_TRUE(set.success) << set.message;
+  EXPECT_EQ(set.step_index, 50u);
+  const SetGravity::Response turned = node.setGravity({9.81, 0.0, 0.0});
+  EXPECT_TRUE(turned.success) << turned.message;
+  alone.apply(commandOf(node.applied(2)));
+  alone.apply(commandOf(node.applied(3)));
+  EXPECT_EQ(alone.gravity(), rod::Vector3(9.81, 0.0, 0.0));
+  follow(50, 70);
 
   ASSERT_TRUE(node.command("reset").success);
 }

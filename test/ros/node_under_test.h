@@ -20,6 +20,8 @@
 #include "sensory_growth/LightDirection.h"
 #include "sensory_growth/OrganState.h"
 #include "sensory_growth/PointSource.h"
+#include "sensory_growth/SetGravity.h"
+#include "sensory_growth/SetParameter.h"
 #include "sensory_growth/StartRecording.h"
 #include "sensory_growth/Status.h"
 #include "sensory_growth/Step.h"
@@ -49,7 +51,7 @@ class NodeUnderTest {
     subscribe<Status>("status", [this](const Status& status) { status_ = status; });
     subscribe<Stimuli>("stimuli", [this](const Stimuli& stimuli) { stimuli_ = stimuli; });
     subscribe<AppliedCommand>("applied_commands",
-                              [this](const AppliedCommand& stimulus) { applied_.push_back(stimulus); });
+                              [this](const AppliedCommand& command) { applied_.push_back(command); });
     for (const ros::Subscriber& subscriber : subscribers_) {
       waitFor("a publisher of " + subscriber.getTopic(), [&] { return subscriber.getNumPublishers() > 0; });
     }
@@ -74,6 +76,22 @@ class NodeUnderTest {
     Step::Request request;
     request.steps = steps;
     return call<Step>("step", request);
+  }
+
+  SetParameter::Response setParameter(const std::string& organ, const std::string& name, double value) {
+    SetParameter::Request request;
+    request.organ = organ;
+    request.name = name;
+    request.value = value;
+    return call<SetParameter>("set_parameter", request);
+  }
+
+  SetGravity::Response setGravity(const rod::Vector3& acceleration) {
+    SetGravity::Request request;
+    request.acceleration.x = acceleration.x();
+    request.acceleration.y = acceleration.y();
+    request.acceleration.z = acceleration.z();
+    return call<SetGravity>("set_gravity", request);
   }
 
   /// Takes steps, expects it to succeed, and returns the state after the last.
@@ -125,7 +143,7 @@ class NodeUnderTest {
   /// The command number `index` (from 0) that was taken at a step boundary.
   AppliedCommand applied(std::size_t index) {
     AppliedCommand found;
-    wait("applied stimulus " + std::to_string(index), [&] {
+    wait("applied command " + std::to_string(index), [&] {
       if (applied_.size() <= index) return false;
       found = applied_[index];
       return true;
@@ -191,6 +209,24 @@ class NodeUnderTest {
 
   std::vector<ros::Subscriber> subscribers_;  // last, so that callbacks end before what they touch
 };
+
+/// The command that was echoed; stimuli are added.
+inline simulation::Command commandOf(const AppliedCommand& applied) {
+  const rod::Vector3 vector(applied.vector.x, applied.vector.y, applied.vector.z);
+  const auto added = [&](simulation::StimulusKind kind) {
+    return simulation::StimulusCommand{kind, simulation::StimulusOperation::add, applied.id, vector, applied.strength};
+  };
+  switch (applied.kind) {
+    case AppliedCommand::POINT_SOURCE:
+      return added(simulation::StimulusKind::point_source);
+    case AppliedCommand::LIGHT_DIRECTION:
+      return added(simulation::StimulusKind::light_direction);
+    case AppliedCommand::PARAMETER:
+      return simulation::ParameterCommand{applied.id, applied.parameter, applied.value};
+    default:
+      return simulation::GravityCommand{vector};
+  }
+}
 
 /// Expects the positions of the message to be those of the first organ, bit for bit.
 inline void expectSame(const OrganState& state, const simulation::Simulation& alone) {

@@ -80,6 +80,19 @@ TEST(Allocations, AreNotNeededByASteadyKinematicStep) {
   EXPECT_EQ(allocationsOfSteadySteps(simulation), 0);
 }
 
+TEST(Allocations, AreNotNeededByOrgansThatSenseEachOther) {
+  Scenario scenario = shoot(RelaxationMethod::statics).scenario();
+  scenario.organs.front().id = "an_organ_whose_name_is_too_long_for_a_short_string";
+  scenario.organs.front().source = OrganSource{0.9, 1.0};
+  scenario.organs.push_back(scenario.organs.front());
+  scenario.organs.back().id = "another_organ_whose_name_is_long";
+  scenario.organs.back().base.position.y() = 1.0;
+  Simulation simulation(scenario);
+  simulation.apply(
+      StimulusCommand{StimulusKind::point_source, StimulusOperation::add, "a_lamp_with_a_long_name", {1, 2, 0}, 1.0});
+  EXPECT_EQ(allocationsOfSteadySteps(simulation), 0);
+}
+
 TEST(Allocations, AreNotNeededByAStepOfSeveralParts) {
   Simulation one = shoot(RelaxationMethod::kinematics);
   Scenario scenario = one.scenario();
