@@ -99,7 +99,7 @@ std::optional<Verb> readVerb(YamlReader& in) {
   return in.exactlyOneOf(verbs);
 }
 
-/// Why it would change nothing.
+/// Takes a command in the known world, or says why it would change nothing there.
 struct Refusal {
   KnownWorld& world;
 
