@@ -4,6 +4,7 @@
 
 #include "rods.h"
 #include "sensory_growth/mechanics/dynamics.h"
+#include "step_cost.h"
 
 namespace sensory_growth::bench {
 namespace {
@@ -43,7 +44,15 @@ void move(benchmark::State& state) {
     if (!report.ok()) return state.SkipWithError("the rod does not move on");
     element_steps += static_cast<double>(report.iterations) * static_cast<double>(state.range(0));
   }
-  state.counters["element_steps_per_second"] = benchmark::Counter(element_steps, benchmark::Counter::kIsRate);
+  const StepCost cost = countStep();
+  const auto perSecond = [&](double amount) {
+    return benchmark::Counter(amount * element_steps, benchmark::Counter::kIsRate);
+  };
+  state.counters["element_steps_per_second"] = perSecond(1.0);
+  state.counters["flops_per_second"] = perSecond(cost.flops);
+  state.counters["bytes_moved_per_second"] = perSecond(cost.bytes);
+  state.counters["flops_per_element_step"] = cost.flops;
+  state.counters["bytes_per_element_step"] = cost.bytes;
 }
 BENCHMARK(move)->Name("dynamics/steps")->ArgName("n")->Arg(100)->Arg(10000)->Arg(100000)->Unit(benchmark::kMillisecond);
 

@@ -29,7 +29,7 @@ inline simulation::Simulation growingStems(std::size_t organs, std::size_t eleme
     organ.section = stemSection();
     organ.profile = growth::LogisticProfile{1.0, 0.04, 15.0};
     organ.senses = {0.05, 0.1, 0.1, 0.01};
-    organ.bending.proprioception_length = 1e-4;
+    organ.bending.proprioception.intrinsic_length = 1e-4;
     scenario.organs.push_back(organ);
   }
   using simulation::StimulusKind;

@@ -41,6 +41,13 @@ class Results:
     def newton_flops(self, n, instructions=None):
         return self.newton_iteration(n, instructions) / n * self.flops()
 
+    def dynamics_share(self, limit, n):
+        """Of the rate of the widest FMAs, two flops each, or of the triad's, whose bytes are decimal as ours are."""
+        name = f"dynamics/steps/n:{n}"
+        if limit == "arithmetic":
+            return self.median(name, "flops_per_second") / (2.0 * self.median("arithmetic/widest_fma", "fma_per_second"))
+        return self.median(name, "bytes_moved_per_second") / self.median("memory/triad", "bytes_per_second")
+
 
 def newton_figures(instructions):
     return [
@@ -70,6 +77,13 @@ FIGURES = [
         "dynamics_element_steps_per_second",
         "",
         lambda r: r.median("dynamics/steps/n:100", "element_steps_per_second"),
+    ),
+    ("dynamics_flops_per_element_step", "", lambda r: r.median("dynamics/steps/n:100", "flops_per_element_step")),
+    ("dynamics_bytes_per_element_step", "", lambda r: r.median("dynamics/steps/n:100", "bytes_per_element_step")),
+    *(
+        (f"dynamics_share_of_{limit}_n{n}", "", lambda r, n=n, limit=limit: r.dynamics_share(limit, n))
+        for n in (100, 100000)
+        for limit in ("arithmetic", "memory")
     ),
     ("vector_over_scalar_fma_rate", "", lambda r: 2.0 * r.median("arithmetic/widest_fma", "fma_per_second") / r.flops()),
     (

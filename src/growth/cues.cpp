@@ -29,6 +29,18 @@ const char* name(Cue cue) {
   return "?";
 }
 
+std::optional<std::string> findFault(const Senses& senses) {
+  const Oscillator& o = senses.oscillator;
+  for (const double value :
+       {senses.gravity, senses.light_direction, senses.point_source, o.amplitude, o.phase, o.phase_gradient}) {
+    if (!std::isfinite(value)) return "sensitivities and the oscillator must be finite";
+  }
+  if (!(senses.softening_length >= 0.0)) return "softening_length must be >= 0 m";
+  if (!(senses.intensity_exponent > 0.0)) return "intensity_exponent must be > 0";
+  if (!(std::abs(o.period) > 0.0)) return "period of circumnutation must not be 0 s";
+  return findFault(senses.distance, senses.softening_length);
+}
+
 CueField::CueField(const Senses& senses, const Environment& environment, double time)
     : senses_(senses),
       point_sources_(environment.point_sources),
@@ -37,7 +49,7 @@ CueField::CueField(const Senses& senses, const Environment& environment, double 
       towards_lights_(rod::Vector3::Zero()),
       apical_phase_(kTurn * time / senses.oscillator.period + senses.oscillator.phase) {
   for (const LightDirection& light : environment.light_directions) {
-    towards_lights_ += senses.light_direction * light.strength * light.towards;
+    towards_lights_ += senses.light_direction * response(light.strength) * light.towards;
   }
 }
 
@@ -50,12 +62,19 @@ SectionCues CueField::at(const Place& place) const {
           oscillation(place.from_apex)};
 }
 
+/// Weber's and Fechner's kind of answer: not to the strength of a stimulus, but to a power of it.
+double CueField::response(double strength) const {
+  const double exponent = senses_.intensity_exponent;
+  return exponent == 1.0 ? strength : std::copysign(std::pow(std::abs(strength), exponent), strength);
+}
+
 rod::Vector3 CueField::towardsPointSources(const rod::Vector3& position) const {
   rod::Vector3 sum = rod::Vector3::Zero();
   for (const PointSource& source : point_sources_) {
     const rod::Vector3 towards = source.place(later_) - position;
     const double distance = softened(towards, senses_.softening_length);
-    if (distance > 0.0) sum += (senses_.point_source * source.strength / distance) * towards;
+    if (!(distance > 0.0)) continue;
+    sum += (senses_.point_source * response(source.strength) * factor(senses_.distance, distance) / distance) * towards;
   }
   return sum;
 }

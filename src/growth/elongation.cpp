@@ -76,7 +76,7 @@ const GrowthStrain& Elongation::strainAtFixedLength(const rod::Rod& rod, const s
   return strain_;
 }
 
-void elongate(rod::Rod& rod, const GrowthStrain& strain) {
+void elongate(rod::Rod& rod, const GrowthStrain& strain, TwistTransport twist, std::vector<rod::Vector3>& drive) {
   double old_below = 0.0;
   double new_below = 0.0;
   for (std::size_t e = 0; e < rod.size(); ++e) {
@@ -86,10 +86,12 @@ void elongate(rod::Rod& rod, const GrowthStrain& strain) {
     rod::Bend& bend = rod.bends[e];
     if (e < rod.firstBend()) {
       bend.curvature *= old_length / length;  // where a hinge stands does not change
-    } else {
-      const double diluted = bend.rest_curvature.z() * ((old_below + old_length) / (new_below + length));
+    } else if (twist == TwistTransport::angle) {
+      const double dilution = (old_below + old_length) / (new_below + length);
+      const double diluted = bend.rest_curvature.z() * dilution;
       bend.curvature.z() += diluted - bend.rest_curvature.z();
       bend.rest_curvature.z() = diluted;
+      drive[e].z() *= dilution;
     }
     old_below = old_length;
     new_below = length;

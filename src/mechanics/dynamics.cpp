@@ -94,7 +94,9 @@ DynamicRelaxation& DynamicRelaxation::operator=(DynamicRelaxation&&) noexcept = 
 
 RelaxationReport DynamicRelaxation::relax(rod::Rod& rod, const Loads& loads) {
   const Timing times(rod, loads.surroundings, settings_);
-  motion_->assign(rod, loads, settings_.dilatation);
+  rod::Rod moving = rod;
+  moving.rebuild();
+  motion_->assign(moving, loads, settings_.dilatation);
   motion_->stop();
   RelaxationReport report = reportAtStart(times);
   if (!report.ok()) return report;
@@ -104,12 +106,11 @@ RelaxationReport DynamicRelaxation::relax(rod::Rod& rod, const Loads& loads) {
   if (report.largest_bend > settings_.max_bend_angle) return stopped(report, RelaxationReason::unresolved_bend);
 
   motion_->stop();
-  rod::Rod relaxed = rod;
-  motion_->write(relaxed);
-  if (settings_.stopping == StoppingRule::residual && !isStable(relaxed, loads, report)) {
+  motion_->write(moving);
+  if (settings_.stopping == StoppingRule::residual && !isStable(moving, loads, report)) {
     return stopped(report, RelaxationReason::unstable);
   }
-  rod = std::move(relaxed);
+  rod = std::move(moving);
   return report;
 }
 
@@ -118,7 +119,9 @@ RelaxationReport DynamicRelaxation::advance(rod::Rod& rod, const Loads& loads, d
     throw std::invalid_argument("the duration is " + std::to_string(duration) + " s; it must not be negative");
   }
   const Timing times(rod, loads.surroundings, settings_);
-  motion_->assign(rod, loads, settings_.dilatation);
+  rod::Rod moving = rod;
+  moving.rebuild();
+  motion_->assign(moving, loads, settings_.dilatation);
   RelaxationReport report = reportAtStart(times);
   if (!report.ok()) return report;
   const double whole_steps = std::ceil(duration / times.step * (1.0 - 1e-12));
@@ -142,7 +145,8 @@ RelaxationReport DynamicRelaxation::advance(rod::Rod& rod, const Loads& loads, d
   if (!report.ok()) return report;
   report.largest_bend = motion_->largestBend();
   if (report.largest_bend > settings_.max_bend_angle) return stopped(report, RelaxationReason::unresolved_bend);
-  motion_->write(rod);
+  motion_->write(moving);
+  rod = std::move(moving);
   return report;
 }
 

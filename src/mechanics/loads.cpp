@@ -17,6 +17,12 @@ rod::Vector3 vertexForce(const rod::Rod& rod, const Loads& loads, std::size_t ve
   return force;
 }
 
+rod::Vector3 coupleOnLastElement(const rod::Rod& rod, const Loads& loads) {
+  const rod::Element& last = rod.elements.back();
+  const rod::Vector3 bending = loads.tip_couple.cwiseQuotient(last.section.bendStiffness());
+  return rod::exp(0.5 * last.rest_length * (rod.bends.back().rest_curvature + bending)) * loads.tip_couple;
+}
+
 void elementForces(const rod::Rod& rod, const Loads& loads, std::vector<rod::Vector3>& forces) {
   forces.resize(rod.size());
   rod::Vector3 beyond = rod::Vector3::Zero();

@@ -19,6 +19,9 @@ using BlockMatrix = Eigen::Matrix<double, kernels::kBlock, kernels::kBlock, Eige
 using BlockMap = Eigen::Map<Eigen::Matrix<double, 3, kernels::kBlock, Eigen::RowMajor>>;
 using ConstBlockMap = Eigen::Map<const Eigen::Matrix<double, 3, kernels::kBlock, Eigen::RowMajor>>;
 
+/// The same turn by an angle of at most pi.
+Vector3 resolved(const Vector3& turn) { return turn.squaredNorm() < M_PI * M_PI ? turn : rod::log(rod::exp(turn)); }
+
 void setLane(kernels::Packet (&packets)[3], std::size_t lane, const Vector3& value) {
   for (int i = 0; i < 3; ++i) packets[i].lane[lane] = value[i];
 }
@@ -67,12 +70,26 @@ void ReducedEnergy::assign(const rod::Rod& rod, const Loads& loads) {
   step_.resize(n);
   assignElements(rod);
   assignForces(rod, loads);
-  clearPadding(rod);
+  clearPadding();
+  assignCurvature(rod);
+}
+
+void ReducedEnergy::assignCurvature(const rod::Rod& rod) {
+  double length_below = 0.0;
+  for (std::size_t e = 0; e < size(); ++e) {
+    const double length = rod.elements[e].rest_length;
+    const double voronoi = 0.5 * (length_below + length);
+    const rod::Bend& bend = rod.bends[e];
+    setLane(packets_[e / kernels::kPacket].rest_angle, e % kernels::kPacket, voronoi * bend.rest_curvature);
+    step_.set(e, e < view_.first ? Vector3(Vector3::Zero()) : resolved(voronoi * bend.curvature));
+    length_below = length;
+  }
+  for (std::size_t e = size(); e < packets_.size() * kernels::kPacket; ++e) step_.set(e, Vector3::Zero());
+  kernels_->rebuild(view_, step_.view(), frames_.view());
 }
 
 void ReducedEnergy::assignElements(const rod::Rod& rod) {
   double stiffest = 0.0;
-  double length_below = 0.0;
   double stiffness_below = 0.0;
   Vector3 compliance_below = Vector3::Zero();
   stiffness_scale_ = 0.0;
@@ -82,7 +99,6 @@ void ReducedEnergy::assignElements(const rod::Rod& rod) {
     kernels::RodPacket& packet = packets_[e / kernels::kPacket];
     const std::size_t lane = e % kernels::kPacket;
     const double length = element.rest_length;
-    const double voronoi = 0.5 * (length_below + length);
     const Vector3 bend_stiffness = element.section.bendStiffness();
     const Vector3 compliance = 0.5 * length * bend_stiffness.cwiseInverse();  // of half the element
     Vector3 stiffness = (compliance_below + compliance).cwiseInverse();
@@ -90,23 +106,19 @@ void ReducedEnergy::assignElements(const rod::Rod& rod) {
     const Vector3 stretch_compliance = element.section.stretchCompliance() / length;
 
     setLane(packet.stiffness, lane, stiffness);
-    setLane(packet.rest_angle, lane, voronoi * rod.bends[e].rest_curvature);
     setLane(packet.couple, lane, Vector3::Zero());
     setLane(packet.rest_stretch, lane, Vector3::UnitZ() + element.rest_strain);
     packet.compliance[0].lane[lane] = stretch_compliance.x();
     packet.compliance[1].lane[lane] = stretch_compliance.z();
-    frames_.set(static_cast<std::ptrdiff_t>(e), element.frame);
 
     stiffest = std::max(stiffest, bend_stiffness.x());
     stiffness_scale_ = std::max(stiffness_scale_, stiffness_below + stiffness.maxCoeff());
     rest_length_ += length;
     stiffness_below = stiffness.maxCoeff();
     compliance_below = compliance;
-    length_below = length;
   }
   frames_.set(-1, rod.base.frame);
   trial_.set(-1, rod.base.frame);
-  if (view_.first == 1) frames_.set(0, rod.base.frame);
   bending_scale_ = stiffest / rest_length_;
   stiffness_scale_ = std::max(stiffness_scale_, bending_scale_);
 }
@@ -126,58 +138,78 @@ void ReducedEnergy::assignForces(const rod::Rod& rod, const Loads& loads) {
     above = half;
   }
   total += above.norm();
-  tip_couple_ = loads.tip_couple;
-  setLane(packets_[(n - 1) / kernels::kPacket].couple, (n - 1) % kernels::kPacket, loads.tip_couple);
-  couple_scale_ = std::max({total * rest_length_, bending_scale_, loads.tip_couple.norm()});
+  tip_couple_ = coupleOnLastElement(rod, loads);
+  setLane(packets_[(n - 1) / kernels::kPacket].couple, (n - 1) % kernels::kPacket, tip_couple_);
+  couple_scale_ = std::max({total * rest_length_, bending_scale_, tip_couple_.norm()});
 }
 
-void ReducedEnergy::clearPadding(const rod::Rod& rod) {
+void ReducedEnergy::clearPadding() {
   for (std::size_t e = size(); e < packets_.size() * kernels::kPacket; ++e) {
     double* packet = packets_[e / kernels::kPacket].stiffness[0].lane;
     constexpr std::size_t kRows = sizeof(kernels::RodPacket) / sizeof(kernels::Packet);
     for (std::size_t row = 0; row < kRows; ++row) packet[row * kernels::kPacket + e % kernels::kPacket] = 0.0;
-    const auto index = static_cast<std::ptrdiff_t>(e);
-    frames_.set(index, rod.elements.back().frame);
-    for (std::size_t i = 0; i < 3; ++i) step_.column(i)[e] = 0.0;
   }
 }
 
+bool ReducedEnergy::factor(double shift, kernels::PivotInverse* room) {
+  const kernels::Elimination elimination = kernels_->eliminate(view_, frames_.view(), shift, factor_.data(), room);
+  if (elimination.positive) decrement_ = elimination.decrement;
+  return elimination.positive;
+}
+
 bool ReducedEnergy::findStep(double shift) {
-  const kernels::Elimination elimination = kernels_->eliminate(view_, frames_.view(), shift, factor_.data());
-  if (!elimination.positive) return false;
-  decrement_ = elimination.decrement;
-  largest_turn_ = kernels_->substitute(view_, factor_.data(), step_.view());
-  return true;
+  step_is_spelled_out_ = false;
+  return factor(shift, nullptr);
+}
+
+void ReducedEnergy::take(const kernels::Advance& advance) {
+  largest_turn_ = advance.largest_turn;
+  last_turn_ = Eigen::Map<const Vector3>(advance.last_turn);
+}
+
+ReducedEnergy::Evaluation ReducedEnergy::tryWholeStep() {
+  const kernels::Advance advance = kernels_->advance(view_, factor_.data(), frames_.view(), trial_.view());
+  take(advance);
+  return advance.there;
+}
+
+void ReducedEnergy::tryWholeStepBlindly() {
+  take(kernels_->advanceBlindly(view_, factor_.data(), frames_.view(), trial_.view()));
+}
+
+ReducedEnergy::Evaluation ReducedEnergy::tryStep(double scale) {
+  if (!step_is_spelled_out_) kernels_->substitute(view_, factor_.data(), step_.view());
+  step_is_spelled_out_ = true;
+  kernels_->move(view_, frames_.view(), step_.view(), scale, trial_.view());
+  return kernels_->evaluate(view_, trial_.view());
 }
 
 void ReducedEnergy::setStep(const TurnField& step) {
+  step_is_spelled_out_ = true;
   largest_turn_ = 0.0;
   for (std::size_t e = 0; e < size(); ++e) {
     step_.set(e, step[e]);
     largest_turn_ = std::max(largest_turn_, step[e].norm());
   }
-}
-
-ReducedEnergy::Evaluation ReducedEnergy::tryStep(double scale) {
-  kernels_->move(view_, frames_.view(), step_.view(), scale, trial_.view());
-  return kernels_->evaluate(view_, trial_.view());
-}
-
-void ReducedEnergy::takeStep() {
-  kernels_->move(view_, frames_.view(), step_.view(), 1.0, trial_.view());
-  accept();
+  last_turn_ = step.back();
 }
 
 void ReducedEnergy::writeTo(rod::Rod& rod) {
-  // The step and the trial are done with: their memory serves as scratch.
+  // The step is done with: its memory serves as scratch.
   strain_.resize(size());
-  kernels_->strains(view_, frames_.view(), step_.view(), strain_.view());
+  chord_.resize(size());
+  kernels_->strains(view_, frames_.view(), step_.view(), strain_.view(), chord_.view());
+  Vector3 position = rod.base.position;
+  double length_below = 0.0;
+  rod.vertices.front().position = position;
   for (std::size_t e = 0; e < size(); ++e) {
-    rod.elements[e].frame = frames_.at(static_cast<std::ptrdiff_t>(e));
-    rod.elements[e].strain = strain_.at(e);
-    rod.bends[e].curvature = step_.at(e) / rod.voronoiLength(e);
+    rod::Element& element = rod.elements[e];
+    element.frame = frames_.at(static_cast<std::ptrdiff_t>(e));
+    element.strain = strain_.at(e);
+    rod.bends[e].curvature = step_.at(e) / (0.5 * (length_below + element.rest_length));
+    rod.vertices[e + 1].position = position += element.rest_length * chord_.at(e);
+    length_below = element.rest_length;
   }
-  rod.rebuildPositions();
 }
 
 double ReducedEnergy::leaning(std::size_t e) const {
@@ -208,7 +240,7 @@ TurnField ReducedEnergy::turnsFrom(const rod::Rod& rod) const {
   return field;
 }
 
-double ReducedEnergy::lowestEigenvalue(double shift) {
+std::optional<double> ReducedEnergy::lowestEigenvalue(double shift) {
   // Inverse iteration with a block of vectors. The lowest eigenvalues of a slender rod belong to bending in two
   // directions, often equally easy, and to twist; with these three and one more in the block the next eigenvalue,
   // several times the first, decides how fast it converges.
@@ -218,6 +250,8 @@ double ReducedEnergy::lowestEigenvalue(double shift) {
 
   const std::size_t freedoms = 3 * (size() - view_.first);
   if (freedoms == 0) return stiffness_scale_;
+  pivots_.resize(size());
+  if (!factor(shift, pivots_.data())) return std::nullopt;
   const auto m = static_cast<Eigen::Index>(std::min(kernels::kBlock, freedoms));
   block_.resize(3 * kernels::kBlock * size());
   image_.resize(block_.size());
@@ -236,7 +270,7 @@ double ReducedEnergy::lowestEigenvalue(double shift) {
     double mix[kernels::kBlock][kernels::kBlock] = {};
     BlockMatrix::Map(&mix[0][0]).topLeftCorner(m, m) = mix_;
     const kernels::BlockProducts products =
-        kernels_->solveBlock(view_, factor_.data(), mix, block_.data(), image_.data());
+        kernels_->solveBlock(view_, factor_.data(), pivots_.data(), mix, block_.data(), image_.data());
     block_.swap(image_);
     // Y^T A Y = Y^T X, with X mixed as it went in.
     const SmallMatrix stiffness = BlockMatrix::Map(&products.yx[0][0]).topLeftCorner(m, m) * mix_.transpose();
@@ -252,9 +286,9 @@ double ReducedEnergy::lowestEigenvalue(double shift) {
       // The Ritz value is an upper bound: a shift slightly beyond it sharpens the ratio to the next eigenvalue.
       const double closer = -value + 0.3 * std::abs(value) + change;
       if (closer < shift || shift == 0.0) {
-        if (findStep(closer)) {
+        if (factor(closer, pivots_.data())) {
           shift = closer;
-        } else if (!findStep(shift)) {
+        } else if (!factor(shift, pivots_.data())) {
           break;
         }
       }

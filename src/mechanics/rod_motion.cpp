@@ -73,7 +73,7 @@ void RodMotion::assign(const rod::Rod& rod, const Loads& loads, bool dilatation)
     if (below.dot(frame) < 0.0) frame.coeffs() *= -1.0;
     frame_.set(e + 1, frame);
   }
-  dead_couple_.set(n - 1, loads.tip_couple);
+  dead_couple_.set(n - 1, coupleOnLastElement(rod, loads));
   if (rod.base_support == rod::BaseSupport::frozen_first_element) {
     inverse_inertia_[0] = 0.0;
     frame_.set(1, frame_.at(0));

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "couple_newton.h"
 #include "least_energy.h"
 #include "reduced_energy.h"
 #include "sensory_growth/mechanics/rest_shape.h"
@@ -19,6 +20,7 @@ using Evaluation = ReducedEnergy::Evaluation;
 constexpr double kArmijo = 1e-4;
 constexpr double kUnstable = 1e-9;     // of B / L: eigenvalues below minus this are unstable, model.md 12.4
 constexpr double kUnresolvable = 3.0;  // rad: near pi the rotation vector of a bend jumps
+constexpr double kClose = 0.1;         // rad: a first step up to this is taken without a look where it leads
 constexpr double kSmallStep = 1e-5;    // rad: the Hessian before such a step serves after it
 
 bool hasLengths(const rod::Rod& rod) {
@@ -69,9 +71,13 @@ class ShiftedNewton {
 /// zero if none lowers the energy; `here` is then where it led.
 double searchLine(ReducedEnergy& energy, double max_rotation, Evaluation& here) {
   const double noise = 1e-13 * here.magnitude;
-  double scale = std::min(1.0, max_rotation / energy.largestTurn());
-  for (int halvings = 0; halvings < 40; ++halvings, scale *= 0.5) {
-    const Evaluation there = energy.tryStep(scale);
+  Evaluation there = energy.tryWholeStep();
+  double scale = 1.0;
+  if (energy.largestTurn() > max_rotation) {
+    scale = max_rotation / energy.largestTurn();
+    there = energy.tryStep(scale);
+  }
+  for (int halvings = 0; halvings < 40; ++halvings, there = energy.tryStep(scale *= 0.5)) {
     const double gain = here.energy - there.energy + scale * energy.coupleWork();
     if (there.largest_bend < kUnresolvable && gain >= kArmijo * scale * energy.decrement() - noise) {
       energy.accept();
@@ -94,17 +100,13 @@ void leaveAlong(ReducedEnergy& energy, const TurnField& direction, Evaluation& h
   energy.accept();
 }
 
-/// Lowest eigenvalue, with the factor of the last step if that is fresh, and again with one of its own if it comes
-/// close to zero.
-double measureStability(ReducedEnergy& energy, bool factor_is_fresh) {
-  if (factor_is_fresh) {
-    const double lowest = energy.lowestEigenvalue(0.0);
-    if (lowest > 1e-3 * energy.bendingScale() / static_cast<double>(energy.size())) return lowest;
-  }
+double measureStability(ReducedEnergy& energy) {
+  const auto lowest = energy.lowestEigenvalue(0.0);
+  if (lowest && *lowest > 1e-3 * energy.bendingScale() / static_cast<double>(energy.size())) return *lowest;
   // A free turn makes the Hessian singular; without a shift, round-off would decide whether it has a factor.
   const double first = 1e-12 * energy.stiffnessScale();
   const double shift = factorShifted(energy, first, first);
-  return std::isfinite(shift) ? energy.lowestEigenvalue(shift) : -energy.stiffnessScale();
+  return energy.lowestEigenvalue(shift).value_or(-energy.stiffnessScale());
 }
 
 /// Leaves an unstable equilibrium in the direction of the last increment, or of a fixed one if there was none.
@@ -130,14 +132,16 @@ StaticEquilibrium::StaticEquilibrium(StaticEquilibrium&&) noexcept = default;
 StaticEquilibrium& StaticEquilibrium::operator=(StaticEquilibrium&&) noexcept = default;
 
 RelaxationReport StaticEquilibrium::approach(rod::Rod& rod, const Loads& loads) {
-  constexpr double kClose = 0.1;  // rad
-  if (!loads.surroundings.empty() || !hasLengths(rod)) return relax(rod, loads, Stability::decided);
+  const bool has_energy = loads.surroundings.empty() && loads.tip_couple.isZero(0.0);
+  if (!has_energy || !hasLengths(rod)) return relax(rod, loads, Stability::decided);
   ReducedEnergy& energy = workspace_->energy;
   energy.assign(rod, loads);
   RelaxationReport report;
   for (; report.iterations < 2; ++report.iterations) {
-    if (!energy.findStep(0.0) || !(energy.largestTurn() < kClose)) return relax(rod, loads, Stability::decided);
-    energy.takeStep();
+    if (!energy.findStep(0.0)) return relax(rod, loads, Stability::decided);
+    energy.tryWholeStepBlindly();
+    if (!(energy.largestTurn() < kClose)) return relax(rod, loads, Stability::decided);
+    energy.accept();
   }
   energy.writeTo(rod);
   return report;
@@ -145,22 +149,56 @@ RelaxationReport StaticEquilibrium::approach(rod::Rod& rod, const Loads& loads) 
 
 RelaxationReport StaticEquilibrium::relax(rod::Rod& rod, const Loads& loads, Stability stability) {
   if (!loads.surroundings.empty()) return workspace_->supported.relax(rod, loads);
+  if (!hasLengths(rod)) {
+    RelaxationReport report;
+    report.reason = RelaxationReason::not_finite;
+    return report;
+  }
+  workspace_->energy.assign(rod, loads);
+  return relaxAssigned(rod, loads, stability, false);
+}
+
+RelaxationReport StaticEquilibrium::relaxCorrected(rod::Rod& rod, const Loads& loads) {
+  const bool has_energy = loads.surroundings.empty() && loads.tip_couple.isZero(0.0);
+  if (!has_energy) return relax(rod, loads, Stability::decided);
+  workspace_->energy.assignCurvature(rod);
+  return relaxAssigned(rod, loads, Stability::decided, true);
+}
+
+RelaxationReport StaticEquilibrium::relaxAssigned(rod::Rod& rod, const Loads& loads, Stability stability,
+                                                  bool is_close) {
   RelaxationReport report;
   const auto stop = [&report](RelaxationReason reason) {
     report.reason = reason;
     return report;
   };
-  if (!hasLengths(rod)) return stop(RelaxationReason::not_finite);
-
   ReducedEnergy& energy = workspace_->energy;
-  energy.assign(rod, loads);
   // Forces of all elements beyond add up in each, so round-off grows with their number.
   const double round_off = 10.0 * static_cast<double>(rod.size()) * std::numeric_limits<double>::epsilon();
   const double stiffest = std::numeric_limits<double>::epsilon() * energy.stiffnessScale() / energy.coupleScale();
   const double tolerance = std::max({settings_.tolerance, round_off, stiffest});
+  const bool is_hinged = rod.base_support == rod::BaseSupport::hinged;
   ShiftedNewton newton;
   bool factor_is_fresh = false;
-  Evaluation here = energy.evaluate();
+  Evaluation here;
+  if (is_close && energy.findStep(0.0) && (here = energy.tryWholeStep(), energy.largestTurn() < kClose)) {
+    ++report.iterations;
+    energy.accept();
+    factor_is_fresh = energy.largestTurn() < kSmallStep && !is_hinged;
+  } else {
+    here = energy.evaluate();
+  }
+  // A rod that turns the couple which bends it does not go down any energy. Where steps to the balance itself fail,
+  // those that lower the energy and count the work of the couple may still serve.
+  const auto balance = [&] {
+    if (loads.tip_couple.isZero(0.0)) return;
+    const double largest_gradient = tolerance * energy.coupleScale();
+    if (!balanceCouple(energy, largest_gradient, settings_.max_rotation, report.iterations)) {
+      energy.assignCurvature(rod);
+    }
+    here = energy.evaluate();
+  };
+  balance();
   while (true) {
     report.residual = here.largest_gradient / energy.coupleScale();
     report.largest_bend = here.largest_bend;
@@ -172,12 +210,13 @@ RelaxationReport StaticEquilibrium::relax(rod::Rod& rod, const Loads& loads, Sta
       // instability. Nor is what the part of a body couple that has no potential, of norm |M| / 2, may add.
       const double left = std::max(kUnstable * energy.bendingScale(), 10.0 * here.largest_gradient);
       const double neutral = left + 0.5 * loads.tip_couple.norm();
-      const double lowest = measureStability(energy, factor_is_fresh);
+      const double lowest = measureStability(energy);
       report.lowest_eigenvalue = lowest;
       if (lowest >= -neutral) break;
       if (report.branch_switches == settings_.max_branch_switches) return stop(RelaxationReason::unstable);
       ++report.branch_switches;
       leaveUnstable(energy, rod, here);
+      balance();
       factor_is_fresh = false;
       continue;
     }
@@ -187,8 +226,7 @@ RelaxationReport StaticEquilibrium::relax(rod::Rod& rod, const Loads& loads, Sta
     if (!newton.findStep(energy, report.residual)) return stop(RelaxationReason::not_finite);
     const double taken = searchLine(energy, settings_.max_rotation, here);
     if (taken == 0.0) return stop(RelaxationReason::line_search_failed);
-    factor_is_fresh = rod.base_support != rod::BaseSupport::hinged && newton.shift() == 0.0 &&
-                      taken * energy.largestTurn() < kSmallStep;
+    factor_is_fresh = !is_hinged && newton.shift() == 0.0 && taken * energy.largestTurn() < kSmallStep;
   }
   if (report.largest_bend > settings_.max_bend_angle) return stop(RelaxationReason::unresolved_bend);
 
@@ -228,7 +266,7 @@ const Reactions& StaticEquilibrium::reactions() const { return workspace_->suppo
 
 double StaticEquilibrium::lowestEigenvalue(const rod::Rod& rod, const Loads& loads) {
   workspace_->energy.assign(rod, loads);
-  return measureStability(workspace_->energy, false);
+  return measureStability(workspace_->energy);
 }
 
 }  // namespace sensory_growth::mechanics

@@ -26,7 +26,7 @@ void SupportedEnergy::assign(const rod::Rod& rod, const Loads& loads) {
   const std::size_t n = rod.size();
   base_frame_ = rod.base.frame;
   support_ = rod.base_support;
-  tip_couple_ = loads.tip_couple;
+  tip_couple_ = coupleOnLastElement(rod, loads);
   frame_is_held_ = loads.surroundings.held_apex && loads.surroundings.held_apex->frame;
   length_ = rod.restLength();
 

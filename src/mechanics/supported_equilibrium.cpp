@@ -277,6 +277,7 @@ RelaxationReport SupportedEquilibrium::relax(rod::Rod& rod, const Loads& loads) 
   };
   if (!isFinite(rod, loads)) return stop(RelaxationReason::not_finite);
 
+  rod.rebuild();
   w.energy.assign(rod, loads);
   w.readConfiguration(rod);
   if (loads.surroundings.held_apex && loads.surroundings.held_apex->frame) {

@@ -104,6 +104,14 @@ std::optional<StimulusCommand> makeCommand(StimulusKind kind, std::uint8_t opera
   return command;
 }
 
+std::vector<geometry_msgs::Vector3> toVectors(const growth::CueFields& cues, growth::Cue cue) {
+  std::vector<geometry_msgs::Vector3> vectors;
+  for (const Eigen::Vector2d& section : cues[static_cast<std::size_t>(cue)]) {
+    vectors.push_back(toVector({section.x(), section.y(), 0.0}));
+  }
+  return vectors;
+}
+
 }  // namespace
 
 geometry_msgs::Point toPoint(const rod::Vector3& v) {
@@ -186,6 +194,11 @@ OrganState toMessage(const OrganSnapshot& organ, const Snapshot& snapshot, const
     message.curvature.push_back(toVector(bend.curvature));
     message.rest_curvature.push_back(toVector(bend.rest_curvature));
   }
+
+  message.gravity_cue = toVectors(organ.cues, growth::Cue::gravity);
+  message.light_direction_cue = toVectors(organ.cues, growth::Cue::light_direction);
+  message.point_source_cue = toVectors(organ.cues, growth::Cue::point_source);
+  message.oscillator_cue = toVectors(organ.cues, growth::Cue::oscillator);
 
   message.tip = toPose(rod.apex());
   message.rest_length = rod.restLength();

@@ -12,7 +12,8 @@ SnapshotPtr takeSnapshot(const simulation::Simulation& simulation, const ros::Ti
   snapshot->environment = simulation.environment();
   snapshot->organs.reserve(simulation.organs().size());
   for (const simulation::Organ& organ : simulation.organs()) {
-    snapshot->organs.push_back({organ.scenario().id, organ.rod(), organ.growthRates(), organ.energy(),
+    snapshot->organs.push_back({organ.scenario().id, organ.rod(), organ.growthRates(),
+                                organ.cues(simulation.environment()), organ.energy(),
                                 organ.scenario().loads.surroundings, organ.report()});
     snapshot->organs.back().report.relaxation.lowest_eigenvalue = organ.lowestEigenvalue();
   }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "sensory_growth/mechanics/rest_shape.h"
 #include "sensory_growth/rod/division.h"
@@ -25,8 +26,9 @@ Organ::Organ(const OrganScenario& organ, const Scenario& scenario)
   }
   loads_ = organ.loads;
   if (has_weight_) loads_.gravity = scenario.gravity;
-  if (const auto fault = mechanics::findFault(loads_.surroundings)) {
-    throw std::invalid_argument("organ '" + organ.id + "': " + *fault);
+  for (const auto& fault :
+       {mechanics::findFault(loads_.surroundings), growth::findFault(organ.senses), growth::findFault(organ.bending)}) {
+    if (fault) throw std::invalid_argument("organ '" + organ.id + "': " + *fault);
   }
 
   rod_ = rod::straightRod(organ.base, organ.length, organ.elements, organ.section);
@@ -34,7 +36,6 @@ Organ::Organ(const OrganScenario& organ, const Scenario& scenario)
   for (std::size_t j = rod_.firstBend(); j < rod_.size(); ++j) {
     rod_.bends[j].curvature = rod_.bends[j].rest_curvature = organ.rest_curvature;
   }
-  rod_.rebuild();
   report_.divisions = rod::divideLongElements(rod_, organ.longest_element, organ.division);
   report_.fault = relaxFromAnywhere();
   if (!report_.ok()) {
@@ -50,6 +51,7 @@ const OrganReport& Organ::advance(double dt, const growth::Environment& environm
   has_begun_ = false;
   const auto giveUp = [this](OrganFault fault) -> const OrganReport& {
     rod_ = before_step_;
+    amplification_ = amplification_before_step_;
     weight_changed_ = weight_changed_before_step_;
     report_.fault = fault;
     return report_;
@@ -67,10 +69,7 @@ const OrganReport& Organ::advance(double dt, const growth::Environment& environm
     const double parts = std::max(1.0, std::ceil(remaining / limit * (1.0 - 1e-12)));
     const double part = remaining / parts;
 
-    // The first part mostly starts where the step does, and one part is the rule.
-    const bool is_first = report_.substeps == 0 && !weight_changed_before_step_;
-    rod::Rod& before_part = is_first ? before_step_ : before_part_;
-    if (!is_first) before_part_ = rod_;
+    if (!startsWithStep()) before_part_ = rod_;
     const OrganFault fault = growAndRelax(part, environment, time);
     if (fault == OrganFault::too_many_elements) return giveUp(fault);
     if (fault == OrganFault::none) {
@@ -78,7 +77,7 @@ const OrganReport& Organ::advance(double dt, const growth::Environment& environm
       longest_allowed = dt;
       ++report_.substeps;
     } else {
-      rod_ = before_part;
+      rod_ = beforePart();
       longest_allowed = 0.5 * part;
       ++report_.retries;
     }
@@ -87,8 +86,9 @@ const OrganReport& Organ::advance(double dt, const growth::Environment& environm
 }
 
 void Organ::undo() {
-  rod_ = before_step_;
+  std::swap(rod_, before_step_);
   report_ = report_before_step_;
+  amplification_ = amplification_before_step_;
   weight_changed_ = weight_changed_before_step_;
   has_begun_ = false;
 }
@@ -103,6 +103,7 @@ void Organ::setGravity(const rod::Vector3& gravity) {
 void Organ::begin() {
   before_step_ = rod_;
   report_before_step_ = report_;
+  amplification_before_step_ = amplification_;
   weight_changed_before_step_ = weight_changed_;
   has_begun_ = true;
   report_ = {};
@@ -115,21 +116,21 @@ void Organ::begin() {
 OrganFault Organ::growAndRelax(double dt, const growth::Environment& environment, double time) {
   const growth::GrowthStrain& strain = scenario_.elongation ? elongation_.strain(scenario_.profile, rod_, rates_, dt)
                                                             : elongation_.strainAtFixedLength(rod_, rates_, dt);
-  if (scenario_.elongation) growth::elongate(rod_, strain);
+  if (scenario_.elongation) growth::elongate(rod_, strain, scenario_.twist_transport, drive_);
+  if (scenario_.bending.rotation) growth::turn(rod_, *scenario_.bending.rotation, rates_, dt, drive_);
   growth::predict(rod_, scenario_.bending, strain, drive_);
-  // Growth carries the rod along: left in place, it would be compressed and ring (model.md 11.1).
-  rod_.rebuild();
   const bool moves = method_ == RelaxationMethod::continuous;
   const auto relax_predicted = [&] { return stepping_.second_order ? relaxInPassing() : relax(); };
   if ((moves ? move(dt / growth_per_second_) : relax_predicted()) != OrganFault::none) return OrganFault::relaxation;
 
   if (stepping_.second_order) {
     growth::sense(scenario_.senses, environment, time + dt, rod_, cues_);
-    growth::drive(rod_, cues_, new_drive_);
+    growth::drive(rod_, scenario_.bending, cues_, new_drive_);
     growth::correct(rod_, scenario_.bending, strain, drive_, new_drive_);
-    rod_.rebuild();
-    if (!moves && relax() != OrganFault::none) return OrganFault::relaxation;
+    if (moves) rod_.rebuild();
+    if (!moves && relaxCorrected() != OrganFault::none) return OrganFault::relaxation;
   }
+  amplification_ = elasticAmplification();
 
   const std::size_t divisions = rod::divideLongElements(rod_, scenario_.longest_element, scenario_.division);
   report_.divisions += divisions;
@@ -162,6 +163,10 @@ OrganFault Organ::relaxInPassing() {
   return method_ == RelaxationMethod::statics ? take(equilibrium_.approach(rod_, loads_)) : relax();
 }
 
+OrganFault Organ::relaxCorrected() {
+  return method_ == RelaxationMethod::statics ? take(equilibrium_.relaxCorrected(rod_, loads_)) : relax();
+}
+
 std::optional<double> Organ::lowestEigenvalue() const {
   const bool was_only_decided = method_ == RelaxationMethod::statics && loads_.surroundings.empty();
   if (!was_only_decided) return report_.relaxation.lowest_eigenvalue;
@@ -183,7 +188,7 @@ double Organ::longestPart(const growth::Environment& environment, double time) {
   const growth::BendingLaw& law = scenario_.bending;
   growth::elementRates(scenario_.profile, rod_, rates_);
   growth::sense(scenario_.senses, environment, time, rod_, cues_);
-  const double differential_growth = growth::drive(rod_, cues_, drive_);
+  const double differential_growth = growth::drive(rod_, law, cues_, drive_);
   report_.largest_differential_growth = std::max(report_.largest_differential_growth, differential_growth);
 
   double fastest_growth = 0.0;
@@ -191,10 +196,8 @@ double Organ::longestPart(const growth::Environment& environment, double time) {
   double total_turning = 0.0;
   double tip_speed = 0.0;
   for (std::size_t j = 0; j < rod_.size(); ++j) {
-    const double bend_rate = rod::voronoiMean(rod_, j, [this](std::size_t e) { return rates_[e]; });
-    const double straightening = law.proprioception_length * growth::inverseRadius(rod_, j);
-    const Eigen::Vector2d slope = drive_[j] - straightening * rod_.bends[j].rest_curvature.head<2>();
-    const double turning = rod_.voronoiLength(j) * bend_rate * slope.norm();
+    const double growth_rate = rod::voronoiMean(rod_, j, [this](std::size_t e) { return rates_[e]; });
+    const double turning = rod_.voronoiLength(j) * growth_rate * growth::bendingRate(rod_, law, drive_, j).norm();
     fastest_growth = std::max(fastest_growth, rates_[j]);
     fastest_bend = std::max(fastest_bend, turning);
     total_turning += turning;
@@ -206,8 +209,35 @@ double Organ::longestPart(const growth::Environment& environment, double time) {
   };
   double dt = longest(limits.growth_strain, fastest_growth);
   if (scenario_.elongation) dt = std::min(dt, longest(limits.tip_advance * scenario_.longest_element, tip_speed));
-  dt = std::min(dt, longest(limits.bend_angle, fastest_bend));
-  return std::min(dt, longest(limits.total_angle, total_turning));
+  if (scenario_.senses.oscillator.amplitude != 0.0) {
+    dt = std::min(dt, limits.oscillation * std::abs(scenario_.senses.oscillator.period));
+  }
+  if (law.rotation) dt = std::min(dt, limits.oscillation * std::abs(law.rotation->period));
+  dt = std::min(dt, longest(limits.bend_angle, amplification_ * fastest_bend));
+  return std::min(dt, longest(limits.total_angle, amplification_ * total_turning));
+}
+
+/// How many times more the organ has turned in this part than its rest state: the nearer it is to falling over, the
+/// more (model.md 11.2). Bounded, so that a jump to another equilibrium shortens one part, not all that follow.
+double Organ::elasticAmplification() const {
+  constexpr double kMostAmplification = 20.0;
+  if (method_ == RelaxationMethod::kinematics) return 1.0;
+  double turning = 0.0;
+  double rest_turning = 0.0;
+  for (std::size_t j = rod_.firstBend(); j < rod_.size(); ++j) {
+    const rod::Bend& before = beforePart().bends[j];
+    const rod::Bend& now = rod_.bends[j];
+    const double length = rod_.voronoiLength(j);
+    turning += length * (now.curvature - before.curvature).head<2>().norm();
+    rest_turning += length * (now.rest_curvature - before.rest_curvature).head<2>().norm();
+  }
+  return rest_turning > 0.0 ? std::clamp(turning / rest_turning, 1.0, kMostAmplification) : 1.0;
+}
+
+growth::CueFields Organ::cues(const growth::Environment& environment) const {
+  growth::CueFields cues;
+  growth::sense(scenario_.senses, environment, environment.time, rod_, cues);
+  return cues;
 }
 
 std::vector<double> Organ::growthRates() const {

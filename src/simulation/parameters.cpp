@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <sstream>
 #include <type_traits>
+#include <utility>
 #include <variant>
 
 #include "sensory_growth/simulation/spelling.h"
@@ -25,20 +26,47 @@ Parameter parameter(const char* name, const Dimension* dimension, const Range& r
 template <typename Organ>
 using Value = std::conditional_t<std::is_const_v<Organ>, const double, double>*;
 
-/// Parts of an organ or of the run that a simulation is built with; what follows a name after '.' belongs to it.
+/// Parts of an organ or of the run that a simulation is built with; what follows a name after '.' or '[' belongs to it.
 const std::vector<std::string>& structuralNames() {
   static const std::vector<std::string> names = {
-      "id",        "base",     "length",     "elements", "radius", "material",   "rest_curvature",
-      "growth",    "division", "tip_force",  "springs",  "walls",  "line_force", "tip_couple",
-      "held_apex", "source",   "relaxation", "stepping", "weight", "duration",   "organs",
+      "id",
+      "base",
+      "length",
+      "elements",
+      "radius",
+      "material",
+      "rest_curvature",
+      "growth",
+      "division",
+      "tip_force",
+      "line_force",
+      "tip_couple",
+      "springs",
+      "walls",
+      "source",
+      "held_apex",
+      "saturation",
+      "circumnutation",
+      "sensing",
+      "aging",
+      "sensitivities.distance",
+      "stepping",
+      "weight",
+      "duration",
+      "relaxation",
+      "organs",
+      "proprioception.set_point",
   };
   return names;
 }
 
 bool isStructural(const std::string& name) {
-  const std::string part = name.substr(0, name.find_first_of(".["));
+  const auto holds = [&name](const std::string& part) {
+    return name.compare(0, part.size(), part) == 0 &&
+           (name.size() == part.size() || name[part.size()] == '.' || name[part.size()] == '[');
+  };
   const auto& names = structuralNames();
-  return std::find(names.begin(), names.end(), part) != names.end();
+  return std::any_of(names.begin(), names.end(), holds);
 }
 
 std::vector<std::string> parameterNames() {
@@ -60,8 +88,14 @@ const std::vector<Parameter>& parameters() {
                 [](auto& organ) { return &organ.senses.point_source; }),
       parameter("sensitivities.softening_length", &dimension::length, atLeast(0),
                 [](auto& organ) { return &organ.senses.softening_length; }),
-      parameter("proprioception_length", &dimension::length, atLeast(0),
-                [](auto& organ) { return &organ.bending.proprioception_length; }),
+      parameter("sensitivities.intensity_exponent", nullptr, above(0).upTo(10),
+                [](auto& organ) { return &organ.senses.intensity_exponent; }),
+      parameter("proprioception.intrinsic_length", &dimension::length, atLeast(0),
+                [](auto& organ) { return &organ.bending.proprioception.intrinsic_length; }),
+      parameter("proprioception.actual_length", &dimension::length, atLeast(0),
+                [](auto& organ) { return &organ.bending.proprioception.actual_length; }),
+      parameter("proprioception.relaxation_length", &dimension::length, atLeast(0),
+                [](auto& organ) { return &organ.bending.proprioception.relaxation_length; }),
       parameter("growth.rate", &dimension::rate, atLeast(0),
                 [](auto& organ) { return std::visit([](auto& profile) { return &profile.rate; }, organ.profile); }),
       parameter("source.strength", nullptr, anyNumber,
@@ -102,17 +136,23 @@ std::optional<std::string> findFault(const ParameterCommand& command) {
   return text.str();
 }
 
-std::optional<std::string> findFault(const ParameterCommand& command, const std::vector<OrganScenario>& organs) {
+std::optional<std::string> apply(const ParameterCommand& command, std::vector<OrganScenario>& organs) {
   if (auto fault = findFault(command)) return fault;
   const Parameter& parameter = *findParameter(command.name);
+  std::vector<OrganScenario> changed = organs;
   bool is_known = false;
-  for (const OrganScenario& organ : organs) {
+  for (OrganScenario& organ : changed) {
     if (!addresses(command, organ)) continue;
     is_known = true;
     if (!parameter.get(organ)) return "organ " + quoted(organ.id) + " has no " + command.name;
+    parameter.set(organ, command.value);
+    for (const auto& fault : {growth::findFault(organ.senses), growth::findFault(organ.bending)}) {
+      if (fault) return "organ " + quoted(organ.id) + ": " + *fault;
+    }
   }
-  if (is_known) return std::nullopt;
-  return "there is no organ " + quoted(command.organ) + "; give its id, or " + quoted(kAllOrgans);
+  if (!is_known) return "there is no organ " + quoted(command.organ) + "; give its id, or " + quoted(kAllOrgans);
+  organs = std::move(changed);
+  return std::nullopt;
 }
 
 bool addresses(const ParameterCommand& command, const OrganScenario& organ) {

@@ -106,9 +106,7 @@ struct Refusal {
   std::optional<std::string> operator()(const StimulusCommand& command) const {
     return apply(command, world.environment);
   }
-  std::optional<std::string> operator()(const ParameterCommand& command) const {
-    return findFault(command, world.organs);
-  }
+  std::optional<std::string> operator()(const ParameterCommand& command) const { return apply(command, world.organs); }
   std::optional<std::string> operator()(const GravityCommand& command) const { return findFault(command); }
 };
 

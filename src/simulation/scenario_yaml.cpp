@@ -9,6 +9,7 @@
 
 #include "loads_yaml.h"
 #include "protocol_yaml.h"
+#include "senses_yaml.h"
 #include "sensory_growth/simulation/yaml_reader.h"
 
 namespace sensory_growth::simulation {
@@ -27,6 +28,7 @@ void readLimits(YamlReader& in, StepLimits& limits) {
   limits.growth_strain = in.number("growth_strain", limit, limits.growth_strain);
   limits.bend_angle = in.quantity("bend_angle", dimension::angle, limit, limits.bend_angle);
   limits.total_angle = in.quantity("total_angle", dimension::angle, limit, limits.total_angle);
+  limits.oscillation = in.number("oscillation", limit, limits.oscillation);
   limits.smallest_part = in.number("smallest_part", above(0).upTo(1), limits.smallest_part);
 }
 
@@ -122,20 +124,16 @@ growth::Profile readApicalFlat(YamlReader& in) { return growth::ApicalFlatProfil
 
 void readGrowth(YamlReader& in, OrganScenario& organ) {
   organ.elongation = in.flag("elongation", organ.elongation);
+  using growth::TwistTransport;
+  organ.twist_transport =
+      in.choice<TwistTransport>("twist_transport", {{"angle", TwistTransport::angle}, {"rate", TwistTransport::rate}},
+                                organ.twist_transport)
+          .value_or(organ.twist_transport);
   using ReadProfile = growth::Profile (*)(YamlReader&);
   const auto read = in.choice<ReadProfile>(
       "profile", {{"logistic", readLogistic}, {"uniform", readUniform}, {"apical_flat", readApicalFlat}});
   if (!read) return in.ignoreOtherKeys();
   organ.profile = (*read)(in);
-}
-
-void readSensitivities(YamlReader& in, growth::Senses& senses) {
-  senses.gravity = in.number("gravity", anyNumber);
-  senses.light_direction = in.number("light_direction", anyNumber);
-  senses.point_source = in.number("point_source", anyNumber);
-  if (std::abs(senses.point_source) > 0.0 || in.has("softening_length")) {
-    senses.softening_length = in.quantity("softening_length", dimension::length, atLeast(0));
-  }
 }
 
 void readDivision(YamlReader& in, RelaxationMethod relaxation, OrganScenario& organ) {
@@ -173,9 +171,7 @@ OrganScenario readOrgan(YamlReader& in, RelaxationMethod relaxation, YamlReader:
   organ.section.radius = in.quantity("radius", dimension::length, above(0));
   in.section("material", kRequired, [&](YamlReader& material) { readMaterial(material, relaxation, organ.section); });
   in.section("growth", kRequired, [&](YamlReader& growth) { readGrowth(growth, organ); });
-  in.section("sensitivities", kRequired,
-             [&](YamlReader& sensitivities) { readSensitivities(sensitivities, organ.senses); });
-  organ.bending.proprioception_length = in.quantity("proprioception_length", dimension::length, atLeast(0));
+  readSenses(in, organ);
   in.section("division", kRequired, [&](YamlReader& division) { readDivision(division, relaxation, organ); });
   in.section("source", kOptional, [&](YamlReader& source) { organ.source = readSource(source); });
   readLoads(in, relaxation, organ);

@@ -82,7 +82,9 @@ std::optional<std::string> Simulation::take(const StimulusCommand& command) {
 }
 
 std::optional<std::string> Simulation::take(const ParameterCommand& command) {
-  if (auto fault = findFault(command, scenario_.organs)) return fault;
+  std::vector<OrganScenario> now;
+  for (const Organ& organ : organs_) now.push_back(organ.scenario());
+  if (auto refusal = simulation::apply(command, now)) return refusal;
   for (Organ& organ : organs_) {
     if (addresses(command, organ.scenario())) organ.set(*findParameter(command.name), command.value);
   }

@@ -26,7 +26,7 @@ constexpr const char* kBlanks = " \t";
 constexpr std::array kDistinctDimensions{dimension::length,     dimension::time,      dimension::rate,
                                          dimension::angle,      dimension::curvature, dimension::acceleration,
                                          dimension::modulus,    dimension::density,   dimension::force,
-                                         dimension::line_force, dimension::energy};
+                                         dimension::line_force, dimension::energy,    dimension::angle_gradient};
 
 /// Products and quotients of named units with small powers, "1" only as the first numerator. This leaves out what
 /// udunits2 also reads: factors ("mm 2"), origins ("K @ 273"), logarithms and dates.

@@ -155,6 +155,17 @@ double YamlReader::quantity(const std::string& key, const Dimension& dimension, 
   });
 }
 
+std::vector<double> YamlReader::numbers(const std::string& key, const Range& range) {
+  return sequence(key, "a number without a unit",
+                  [&](const std::string& text) { return inRange(parseNumber(text), range, ""); });
+}
+
+std::vector<double> YamlReader::quantities(const std::string& key, const Dimension& dimension, const Range& range) {
+  return sequence(key, example(dimension), [&](const std::string& text) {
+    return inRange(parseQuantity(text, dimension), range, dimension.unit);
+  });
+}
+
 rod::Vector3 YamlReader::vector(const std::string& key, const Dimension& dimension,
                                 std::optional<rod::Vector3> fallback) {
   if (fallback && !has(key)) return *fallback;
@@ -258,8 +269,25 @@ double YamlReader::convert(const std::string& key, int line, const std::string& 
   }
 }
 
-rod::Vector3 YamlReader::triple(const std::string& key, const std::string& component, const Parse& parse) {
-  const std::string request = "give a sequence of three, each " + component;
+std::vector<double> YamlReader::sequence(const std::string& key, const std::string& component_request,
+                                         const Parse& parse) {
+  const std::string request = "give a sequence, each " + component_request;
+  std::vector<double> values;
+  const Entry* e = find(key, Presence::required, request);
+  if (!e) return values;
+  if (!e->value.IsSequence()) {
+    addProblem(key, simulation::describe(e->value) + "; " + request);
+    return values;
+  }
+  if (e->value.size() == 0) addProblem(key, "is empty; " + request);
+  for (std::size_t i = 0; i < e->value.size(); ++i) {
+    values.push_back(component(e->value, i, key, component_request, parse));
+  }
+  return values;
+}
+
+rod::Vector3 YamlReader::triple(const std::string& key, const std::string& component_request, const Parse& parse) {
+  const std::string request = "give a sequence of three, each " + component_request;
   rod::Vector3 value = rod::Vector3::Constant(kNan);
   const Entry* e = find(key, Presence::required, request);
   if (!e) return value;
@@ -268,18 +296,22 @@ rod::Vector3 YamlReader::triple(const std::string& key, const std::string& compo
   } else if (e->value.size() != 3) {
     addProblem(key, "has " + std::to_string(e->value.size()) + " components; " + request);
   } else {
-    for (int i = 0; i < 3; ++i) {
-      const YAML::Node item = e->value[i];
-      const std::string item_key = key + "[" + std::to_string(i) + "]";
-      const int item_line = lineOf(item, line(key));
-      if (item.IsScalar()) {
-        value[i] = convert(item_key, item_line, item.Scalar(), parse);
-      } else {
-        problems_.push_back({pathOf(item_key), item_line, simulation::describe(item) + "; give " + component});
-      }
+    for (std::size_t i = 0; i < 3; ++i) {
+      value[static_cast<Eigen::Index>(i)] = component(e->value, i, key, component_request, parse);
     }
   }
   return value;
+}
+
+/// One number of a sequence.
+double YamlReader::component(const YAML::Node& sequence, std::size_t i, const std::string& key,
+                             const std::string& request, const Parse& parse) {
+  const YAML::Node item = sequence[i];
+  const std::string item_key = key + "[" + std::to_string(i) + "]";
+  const int item_line = lineOf(item, line(key));
+  if (item.IsScalar()) return convert(item_key, item_line, item.Scalar(), parse);
+  problems_.push_back({pathOf(item_key), item_line, simulation::describe(item) + "; give " + request});
+  return kNan;
 }
 
 void YamlReader::readMapping(const YAML::Node& node, const std::string& key, int line, const Body& body) {

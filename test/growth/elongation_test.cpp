@@ -13,6 +13,8 @@
 namespace sensory_growth::growth {
 namespace {
 
+using rod::Vector3;
+
 rod::Rod organ(double length, std::size_t elements = 20) {
   return rod::straightRod({}, length, elements, support::section(0.01, 1.0, 1.0));
 }
@@ -23,11 +25,17 @@ const GrowthStrain& strainOf(Elongation& elongation, const Profile& profile, con
   return elongation.strain(profile, rod, rates, dt);
 }
 
+/// Of a rod that nothing drives to twist.
+void elongateFreely(rod::Rod& rod, const GrowthStrain& strain, TwistTransport twist = TwistTransport::angle) {
+  std::vector<Vector3> drive(rod.size(), Vector3::Zero());
+  elongate(rod, strain, twist, drive);
+}
+
 double grownLength(const Profile& profile, double length, double time, double dt) {
   rod::Rod rod = organ(length);
   Elongation elongation;
   const auto steps = std::lround(time / dt);
-  for (long i = 0; i < steps; ++i) elongate(rod, strainOf(elongation, profile, rod, dt));
+  for (long i = 0; i < steps; ++i) elongateFreely(rod, strainOf(elongation, profile, rod, dt));
   return rod.restLength();
 }
 
@@ -70,7 +78,7 @@ TEST(Growth, CarriesBendingCurvatureAndTwistAngle) {
   rod::Rod rod = support::randomRod(generator, 10);
   const rod::Rod before = rod;
   Elongation elongation;
-  elongate(rod, strainOf(elongation, UniformProfile{1.0}, rod, 0.8));
+  elongateFreely(rod, strainOf(elongation, UniformProfile{1.0}, rod, 0.8));
   for (std::size_t j = 0; j < rod.size(); ++j) {
     EXPECT_EQ(rod.bends[j].rest_curvature.x(), before.bends[j].rest_curvature.x());
     EXPECT_EQ(rod.bends[j].rest_curvature.y(), before.bends[j].rest_curvature.y());
@@ -85,18 +93,34 @@ TEST(Growth, DriftsPassively) {
   rod::Rod rod = organ(1.0, 50);  // V12d: the turning angle grows with the length at constant curvature
   for (rod::Bend& b : rod.bends) b.rest_curvature = b.curvature = {0.0, 0.5, 0.0};
   Elongation elongation;
-  for (int i = 0; i < 10; ++i) elongate(rod, strainOf(elongation, UniformProfile{1.0}, rod, 0.1));
+  for (int i = 0; i < 10; ++i) elongateFreely(rod, strainOf(elongation, UniformProfile{1.0}, rod, 0.1));
   rod.rebuild();
   const rod::Vector3 tangent = rod.apex().frame * rod::Vector3::UnitZ();
   EXPECT_NEAR(std::atan2(tangent.x(), tangent.z()), 1.359140914, 1e-9);
   EXPECT_NEAR(std::atan2(tangent.x(), tangent.z()), 0.5 * std::exp(1.0), 1e-12);
 }
 
+TEST(Growth, KeepsTheTwistOfTissueWithHelicalFibres) {
+  rod::Rod rod = organ(1.0);
+  for (rod::Bend& bend : rod.bends) bend.curvature = bend.rest_curvature = {0.5, -0.2, 0.3};
+  Elongation elongation;
+  elongateFreely(rod, strainOf(elongation, UniformProfile{1.0}, rod, 0.8), TwistTransport::rate);
+  for (const rod::Bend& bend : rod.bends) EXPECT_EQ(bend.rest_curvature, Vector3(0.5, -0.2, 0.3));
+}
+
+TEST(Growth, CarriesTheDriveOfTwistWithItsAngle) {
+  rod::Rod rod = organ(1.0);
+  Elongation elongation;
+  std::vector<Vector3> drive(rod.size(), Vector3(1.0, 2.0, 3.0));
+  elongate(rod, strainOf(elongation, UniformProfile{1.0}, rod, 0.8), TwistTransport::angle, drive);
+  for (const Vector3& f : drive) EXPECT_LT((f - Vector3(1.0, 2.0, 3.0 * std::exp(-0.8))).norm(), 1e-14);
+}
+
 TEST(Growth, LengthsStayPositiveForAnyStep) {
   Elongation elongation;
   for (const double dt : {1e-6, 1.0, 10.0}) {
     rod::Rod rod = organ(0.3);
-    elongate(rod, strainOf(elongation, LogisticProfile{1.0, 1.0, 15.0}, rod, dt));
+    elongateFreely(rod, strainOf(elongation, LogisticProfile{1.0, 1.0, 15.0}, rod, dt));
     for (const rod::Element& e : rod.elements) EXPECT_GT(e.rest_length, 0.0);
   }
 }
@@ -108,7 +132,7 @@ TEST(Growth, StrainOfABendIsThatOfItsVoronoiCell) {
   Elongation elongation;
   rod::Rod after = before;
   const GrowthStrain free = strainOf(elongation, profile, before, 0.3);
-  elongate(after, free);
+  elongateFreely(after, free);
   for (std::size_t j = 0; j < before.size(); ++j) {
     EXPECT_NEAR(free.bends[j], std::log(after.voronoiLength(j) / before.voronoiLength(j)), 1e-14);
   }

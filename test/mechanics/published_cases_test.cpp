@@ -120,6 +120,37 @@ TEST(BodyCouple, RollsTheRodIntoACircle) {  // V9
   EXPECT_LT(rod.vertices.back().position.norm(), 1e-11);
 }
 
+/// A couple fixed in the apex, in any direction. With equal bending stiffnesses the moment, which is the same all along
+/// the rod, is m = exp(L M3 a d3) M, a = 1 / 2GI - 1 / B, and the tangent turns about it at the rate |m| / B: a helix.
+class AnyBodyCouple : public testing::TestWithParam<double> {
+ protected:
+  static double tipError(double couple, std::size_t elements) {
+    const rod::Section section = support::section(0.02, 1.0, 0.0);
+    const Vector3 stiffness = section.bendStiffness();
+    Loads loads;
+    loads.tip_couple = couple * stiffness.x() * Vector3(0.48, 0.64, 0.6);
+    rod::Rod rod = rod::straightRod({}, 1.0, elements, section);
+    relax(rod, loads);
+
+    const double a = 1.0 / stiffness.z() - 1.0 / stiffness.x();
+    const Vector3 moment = rod::exp(loads.tip_couple.z() * a * Vector3::UnitZ()) * loads.tip_couple;
+    const Vector3 k = moment / stiffness.x();
+    const double w = k.norm();
+    const Vector3 tip = Vector3::UnitZ() + (1.0 - std::cos(w)) / (w * w) * k.cross(Vector3::UnitZ()) +
+                        (w - std::sin(w)) / (w * w * w) * k.cross(k.cross(Vector3::UnitZ()));
+    return (rod.vertices.back().position - tip).norm();
+  }
+};
+
+TEST_P(AnyBodyCouple, BendsTheRodIntoAHelix) {  // V9
+  const double coarse = tipError(GetParam(), 100);
+  const double fine = tipError(GetParam(), 200);
+  EXPECT_LT(fine, 1e-3);
+  EXPECT_NEAR(support::order(coarse, fine), 2.0, 0.05);
+}
+
+INSTANTIATE_TEST_SUITE_P(V9, AnyBodyCouple, testing::Values(0.5, 2.0, 5.0, 10.0));
+
 TEST(TimoshenkoCantilever, AgreesWithTheBeamFormula) {  // C9
   rod::Section section;
   section.radius = 0.25;

@@ -36,6 +36,23 @@ TEST(OrganStateMessage, HoldsOneEntryForEachVertexElementAndBend) {
   EXPECT_EQ(message.load_energy, -3.0);
 }
 
+TEST(OrganStateMessage, ReportsEachCueAtEveryBend) {
+  const auto snapshot = testing::snapshotOf("stem");
+  const OrganState message = toMessage(snapshot->organs[0], *snapshot, "world");
+  const auto holds = [](const std::vector<geometry_msgs::Vector3>& cue, double d1) {
+    EXPECT_THAT(cue, SizeIs(4));
+    for (const geometry_msgs::Vector3& section : cue) {
+      EXPECT_EQ(section.x, d1);
+      EXPECT_EQ(section.y, -0.25);
+      EXPECT_EQ(section.z, 0.0);
+    }
+  };
+  holds(message.gravity_cue, 0.125);
+  holds(message.light_direction_cue, 0.25);
+  holds(message.point_source_cue, 0.375);
+  holds(message.oscillator_cue, 0.5);
+}
+
 TEST(OrganStateMessage, TipOfAStraightOrganStandsOnItsBaseWithZAlongTheTangent) {
   const auto snapshot = testing::snapshotOf("stem");
   const OrganState message = toMessage(snapshot->organs[0], *snapshot, "world");

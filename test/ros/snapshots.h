@@ -21,6 +21,8 @@ inline OrganSnapshot straightOrgan(const std::string& id, double turn = 0.0) {
   const rod::Quaternion frame(Eigen::AngleAxisd(turn, rod::Vector3::UnitZ()));
   organ.rod = rod::straightRod({rod::Vector3(1.0, 2.0, 3.0), frame}, 0.04, 4, section);
   organ.growth_rates = {0.0, 1e-6, 2e-6, 4e-6};
+  double size = 0.0;
+  for (growth::SectionField& cue : organ.cues) cue.assign(4, Eigen::Vector2d(size += 0.125, -0.25));
   organ.energy = {1.0, 2.0, -3.0};
   return organ;
 }

@@ -47,7 +47,7 @@ Simulation shoot(RelaxationMethod relaxation) {
   organ.section = support::section(0.03, 1.0, 1.0);
   organ.profile = growth::LogisticProfile{1.0, 0.4, 15.0};
   organ.senses = {0.05, 0.1, 0.1, 0.01};
-  organ.bending.proprioception_length = 0.01;
+  organ.bending.proprioception.intrinsic_length = 0.01;
   Simulation simulation(scenario);
   simulation.apply(StimulusCommand{StimulusKind::point_source, StimulusOperation::add, "lamp", {1.0, 2.0, 0.5}, 1.0});
   simulation.apply(StimulusCommand{StimulusKind::light_direction, StimulusOperation::add, "sun", {0.0, 1.0, 1.0}, 1.0});
@@ -90,6 +90,20 @@ TEST(Allocations, AreNotNeededByOrgansThatSenseEachOther) {
   Simulation simulation(scenario);
   simulation.apply(
       StimulusCommand{StimulusKind::point_source, StimulusOperation::add, "a_lamp_with_a_long_name", {1, 2, 0}, 1.0});
+  EXPECT_EQ(allocationsOfSteadySteps(simulation), 0);
+}
+
+TEST(Allocations, AreNotNeededWithAnyCueAndGrowthLaw) {
+  Scenario scenario = shoot(RelaxationMethod::statics).scenario();
+  OrganScenario& organ = scenario.organs.front();
+  organ.senses.intensity_exponent = 0.5;
+  organ.senses.distance = growth::SampledPull{{0.1, 2.0}, {1.0, 0.5}};
+  organ.senses.oscillator = {0.1, 0.5, 0.2, 1.0};
+  organ.bending.proprioception = {0.01, 0.01, 0.01, {0.1, 0.2}};
+  organ.bending.rotation = growth::RestRotation{1.0, 1e-3};
+  organ.bending.saturation = true;
+  Simulation simulation(scenario);
+  simulation.apply(StimulusCommand{StimulusKind::point_source, StimulusOperation::add, "lamp", {1.0, 2.0, 0.5}, 1.0});
   EXPECT_EQ(allocationsOfSteadySteps(simulation), 0);
 }
 

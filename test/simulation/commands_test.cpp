@@ -55,7 +55,7 @@ Scenario couple(RelaxationMethod relaxation = RelaxationMethod::statics) {
   OrganScenario& organ = scenario.organs.front();
   organ.section = support::section(0.03, 1.0, 1.0);
   organ.senses = {0.05, 0.1, 0.1, 0.01};
-  organ.bending.proprioception_length = 0.01;
+  organ.bending.proprioception.intrinsic_length = 0.01;
   scenario.organs.push_back(organ);
   scenario.organs.back().id = "second";
   scenario.organs.back().base.position = {0.0, 1.0, 0.0};
@@ -206,7 +206,7 @@ TEST(Commands, OfTheProtocolDoWhatThoseByHandDo) {
   const std::vector<TimedCommand> protocol = {
       {0.1, ParameterCommand{"all", "sensitivities.gravity", -0.1}},
       {0.2, GravityCommand{Vector3(0.3, 0.0, -0.6)}},
-      {0.2, ParameterCommand{"second", "proprioception_length", 0.03}},
+      {0.2, ParameterCommand{"second", "proprioception.intrinsic_length", 0.03}},
   };
   Scenario scenario = couple();
   Simulation by_hand(scenario);

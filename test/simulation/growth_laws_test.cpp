@@ -6,34 +6,19 @@
 
 #include <gtest/gtest.h>
 
-#include "sensory_growth/simulation/simulation.h"
+#include "support/growing.h"
 #include "support/scenarios.h"
 
 namespace sensory_growth::simulation {
 namespace {
 
 using rod::Vector3;
+using support::grown;
 using support::kinematicScenario;
 using support::kUnlimited;
 using support::order;
-
-rod::Rod grown(const Scenario& scenario, long steps) {
-  Simulation simulation(scenario);
-  for (long i = 0; i < steps; ++i) {
-    const StepReport report = simulation.step();
-    EXPECT_TRUE(report.ok) << report.message;
-    if (!report.ok) break;
-  }
-  return simulation.organs().front().rod();
-}
-
-Vector3 tip(const rod::Rod& rod) { return rod.vertices.back().position; }
-
-/// Angle of the apex from the vertical [rad], negative once it has passed it.
-double tipAngle(const rod::Rod& rod) {
-  const Vector3 tangent = rod.apex().frame * Vector3::UnitZ();
-  return std::atan2(tangent.x(), tangent.z());
-}
+using support::tip;
+using support::tipAngle;
 
 // --- V13: gravitropism and proprioception at fixed length
 // -------------------------------------------------------------
@@ -43,7 +28,7 @@ rod::Rod steadyShoot(std::size_t elements) {
   OrganScenario& organ = scenario.organs.front();
   organ.elongation = false;
   organ.senses.gravity = 0.3;
-  organ.bending.proprioception_length = 0.06;
+  organ.bending.proprioception.intrinsic_length = 0.06;
   return grown(scenario, 250);
 }
 
@@ -67,7 +52,7 @@ TEST(GraviProprioceptiveShoot, DecaysExponentiallyFromASmallTilt) {
   organ.base.frame = rod::exp({0.0, 0.01, 0.0});
   organ.elongation = false;
   organ.senses.gravity = 0.05;
-  organ.bending.proprioception_length = 0.05;
+  organ.bending.proprioception.intrinsic_length = 0.05;
   EXPECT_NEAR(tipAngle(grown(scenario, 250)) / 0.01, std::exp(-1.0), 1e-4);
 }
 
@@ -112,7 +97,7 @@ rod::Rod apicalPhototropism(double step, double longest) {
   organ.longest_element = longest * (1.0 + 1e-9);
   organ.profile = growth::ApicalFlatProfile{1.0, 1.0};
   organ.senses.light_direction = 0.05;
-  organ.bending.proprioception_length = 0.01;
+  organ.bending.proprioception.intrinsic_length = 0.01;
   return grown(scenario, std::lround(1.0 / step));
 }
 
@@ -170,7 +155,7 @@ TEST_P(RolledOrgan, CentrelineDoesNotDependOnRoll) {
     organ.base.frame = frame;
     organ.section = support::section(0.05, 1.0, 2.0);
     organ.senses = {0.1, 0.2, 0.1, 0.01};
-    organ.bending.proprioception_length = 0.02;
+    organ.bending.proprioception.intrinsic_length = 0.02;
     s.protocol = {
         {0.0, StimulusCommand{StimulusKind::point_source, StimulusOperation::add, "lamp", {1.0, 1.0, 0.3}, 1.0}},
         {0.0, StimulusCommand{StimulusKind::light_direction, StimulusOperation::add, "sun", {0.2, -1.0, 0.5}, 1.0}}};
@@ -198,7 +183,7 @@ TEST(ElasticOrgan, TurnsRigidlyWithBaseGravityAndCues) {
     organ.loads.tip_force = turn * Vector3(0.1, -0.2, 0.1);
     organ.rest_curvature = {0.2, -0.1, 0.6};
     organ.senses = {0.1, 0.2, 0.1, 0.01};
-    organ.bending.proprioception_length = 0.02;
+    organ.bending.proprioception.intrinsic_length = 0.02;
     s.protocol = {{0.0, StimulusCommand{StimulusKind::point_source, StimulusOperation::add, "lamp",
                                         turn * Vector3(1.0, 1.0, 0.3), 1.0}},
                   {0.0, StimulusCommand{StimulusKind::light_direction, StimulusOperation::add, "sun",
@@ -230,7 +215,7 @@ TEST(Proprioception, DecaysExactlyForAnyStep) {
   OrganScenario& organ = scenario.organs.front();
   organ.elongation = false;
   organ.rest_curvature = {0.3, -0.7, 0.4};
-  organ.bending.proprioception_length = 0.15;
+  organ.bending.proprioception.intrinsic_length = 0.15;
   const rod::Rod rod = grown(scenario, 2);
   for (const rod::Bend& bend : rod.bends) {
     EXPECT_NEAR(bend.rest_curvature.x(), 0.3 * std::exp(-6.0), 1e-15);
@@ -254,7 +239,7 @@ Vector3 elasticTip(int steps) {
   OrganScenario& organ = scenario.organs.front();
   organ.section = support::section(0.05, 1.0, 1.5);
   organ.senses = {0.15, 0.0, 0.05, 0.01};
-  organ.bending.proprioception_length = 0.03;
+  organ.bending.proprioception.intrinsic_length = 0.03;
   return tip(grown(scenario, steps));
 }
 
@@ -272,7 +257,7 @@ TEST(ElasticOrgan, WarmStartNeedsAboutTwoIterations) {
   OrganScenario& organ = scenario.organs.front();
   organ.section = support::section(0.02, 1.0, 0.1);
   organ.senses.gravity = 0.1;
-  organ.bending.proprioception_length = 0.02;
+  organ.bending.proprioception.intrinsic_length = 0.02;
   organ.longest_element = 1.5 / 45;
   Simulation simulation(scenario);
   for (int i = 0; i < 60; ++i) {

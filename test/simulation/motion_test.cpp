@@ -24,7 +24,7 @@ Scenario shoot(RelaxationMethod method, double step) {
   OrganScenario& organ = scenario.organs.front();
   organ.section = support::section(0.1, 1.0, 1.0);
   organ.senses.gravity = 0.2;
-  organ.bending.proprioception_length = 0.02;
+  organ.bending.proprioception.intrinsic_length = 0.02;
   return scenario;
 }
 

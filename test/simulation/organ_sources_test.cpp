@@ -28,7 +28,7 @@ Scenario pair(double step) {
   left.elongation = false;
   left.senses.point_source = 0.1;
   left.senses.softening_length = 0.05;
-  left.bending.proprioception_length = 0.02;
+  left.bending.proprioception.intrinsic_length = 0.02;
   left.source = OrganSource{1.0, 1.0};
   OrganScenario right = left;
   right.id = "right";
@@ -122,7 +122,7 @@ TEST(OrganSources, MirroredOrgansStayMirrored) {
   left.base.frame = rod::exp(Vector3(0.3, 0.2, 0.5));
   left.section = support::section(0.05, 1.0, 1.0);
   left.senses = {0.05, 0.1, 0.1, 0.05};
-  left.bending.proprioception_length = 0.02;
+  left.bending.proprioception.intrinsic_length = 0.02;
   left.longest_element = 0.1;
   left.source = OrganSource{1.0, 1.0};
   OrganScenario right = left;

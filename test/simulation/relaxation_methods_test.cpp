@@ -39,7 +39,7 @@ Scenario pair(const Mode& mode, double step) {
   left.senses.gravity = 0.1;
   left.senses.point_source = 0.2;
   left.senses.softening_length = 0.2;
-  left.bending.proprioception_length = 0.05;
+  left.bending.proprioception.intrinsic_length = 0.05;
   left.source = OrganSource{1.0, 1.0};
   OrganScenario right = left;
   right.id = "right";

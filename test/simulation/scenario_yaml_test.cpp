@@ -89,6 +89,7 @@ TEST(ScenarioYaml, EveryKeyArrivesInSi) {
   EXPECT_EQ(s.stepping.limits.growth_strain, 0.02);
   EXPECT_DOUBLE_EQ(s.stepping.limits.bend_angle, 0.017453292519943295);
   EXPECT_EQ(s.stepping.limits.total_angle, infinity);
+  EXPECT_EQ(s.stepping.limits.oscillation, 0.05);
   EXPECT_EQ(s.stepping.limits.smallest_part, 0.125);
 
   EXPECT_EQ(s.relaxation, RelaxationMethod::statics);
@@ -120,7 +121,7 @@ TEST(ScenarioYaml, EveryKeyArrivesInSi) {
   EXPECT_EQ(organ.senses.light_direction, -0.2);
   EXPECT_EQ(organ.senses.point_source, 0.3);
   EXPECT_DOUBLE_EQ(organ.senses.softening_length, 0.0015);
-  EXPECT_DOUBLE_EQ(organ.bending.proprioception_length, 6e-5);
+  EXPECT_DOUBLE_EQ(organ.bending.proprioception.intrinsic_length, 6e-5);
   EXPECT_DOUBLE_EQ(organ.longest_element, 7e-4);
   EXPECT_EQ(organ.division, rod::DivisionMode::keep_positions);
   expectNear(organ.loads.tip_force, {1e-3, 0.0, -2e-6});
@@ -135,6 +136,43 @@ TEST(ScenarioYaml, EveryKeyArrivesInSi) {
   EXPECT_DOUBLE_EQ(std::get<growth::ApicalFlatProfile>(flat.profile).rate, 2e-5);
   EXPECT_DOUBLE_EQ(std::get<growth::ApicalFlatProfile>(flat.profile).zone_length, 0.005);
   EXPECT_EQ(flat.longest_element, infinity);
+}
+
+TEST(ScenarioYaml, SensesAndGrowthLawsArriveInSi) {
+  const Scenario s = loadScenario(good + "senses.yaml");
+  ASSERT_EQ(s.organs.size(), 5u);
+  const OrganScenario& all = s.organs[0];
+  EXPECT_EQ(all.twist_transport, growth::TwistTransport::rate);
+  EXPECT_EQ(all.senses.intensity_exponent, 0.5);
+  const auto& power = std::get<growth::InversePowerPull>(all.senses.distance);
+  EXPECT_DOUBLE_EQ(power.length, 0.1);
+  EXPECT_EQ(power.exponent, 1.5);
+  EXPECT_EQ(all.senses.oscillator.amplitude, 0.25);
+  EXPECT_DOUBLE_EQ(all.senses.oscillator.period, -5400.0);
+  EXPECT_DOUBLE_EQ(all.senses.oscillator.phase, 0.5235987755982988);
+  EXPECT_DOUBLE_EQ(all.senses.oscillator.phase_gradient, 17.453292519943295);
+  EXPECT_DOUBLE_EQ(all.bending.proprioception.intrinsic_length, 1e-3);
+  EXPECT_DOUBLE_EQ(all.bending.proprioception.actual_length, 2e-3);
+  EXPECT_DOUBLE_EQ(all.bending.proprioception.relaxation_length, 3e-3);
+  EXPECT_EQ(all.bending.proprioception.set_point, Eigen::Vector2d(4.0, -50.0));
+  EXPECT_TRUE(all.bending.saturation);
+  EXPECT_FALSE(all.bending.rotation);
+
+  const auto& sampled = std::get<growth::SampledPull>(s.organs[1].senses.distance);
+  EXPECT_THAT(sampled.distances, testing::ElementsAre(0.0, testing::DoubleEq(0.02), testing::DoubleEq(0.05)));
+  EXPECT_THAT(sampled.factors, testing::ElementsAre(1.0, 0.5, -0.25));
+  ASSERT_TRUE(s.organs[1].bending.rotation);
+  EXPECT_DOUBLE_EQ(s.organs[1].bending.rotation->period, 7200.0);
+  EXPECT_EQ(s.organs[1].bending.rotation->gate, 0.01);
+  EXPECT_EQ(s.organs[1].senses.oscillator.amplitude, 0.0);
+
+  EXPECT_DOUBLE_EQ(std::get<growth::ExponentialPull>(s.organs[2].senses.distance).length, 0.03);
+  EXPECT_EQ(s.organs[2].bending.rotation->gate, 1e-3);
+  EXPECT_DOUBLE_EQ(std::get<growth::GaussianPull>(s.organs[3].senses.distance).length, 0.04);
+  EXPECT_EQ(s.organs[3].senses.oscillator.phase, 0.0);
+  EXPECT_EQ(s.organs[3].senses.oscillator.phase_gradient, 0.0);
+  EXPECT_TRUE(std::holds_alternative<growth::ConstantPull>(s.organs[4].senses.distance));
+  EXPECT_EQ(s.organs[4].twist_transport, growth::TwistTransport::angle);
 }
 
 TEST(ScenarioYaml, LoadsAndSurroundingsArriveInSi) {
@@ -227,6 +265,7 @@ TEST(ScenarioYaml, AbsentKeysHaveTheirDocumentedDefaults) {
   EXPECT_EQ(s.stepping.limits.growth_strain, 0.05);
   EXPECT_EQ(s.stepping.limits.bend_angle, 0.02);
   EXPECT_EQ(s.stepping.limits.total_angle, 0.1);
+  EXPECT_EQ(s.stepping.limits.oscillation, 0.1);
   EXPECT_EQ(s.stepping.limits.smallest_part, 0.000244140625);
   EXPECT_TRUE(s.protocol.empty());
   const OrganScenario& organ = s.organs.at(0);
@@ -235,7 +274,16 @@ TEST(ScenarioYaml, AbsentKeysHaveTheirDocumentedDefaults) {
   EXPECT_TRUE(organ.elongation);
   EXPECT_FALSE(organ.section.inextensible);
   EXPECT_DOUBLE_EQ(organ.section.shear_correction, 0.9642857142857143);
+  EXPECT_EQ(organ.twist_transport, growth::TwistTransport::angle);
   EXPECT_EQ(organ.senses.softening_length, 0.0);
+  EXPECT_EQ(organ.senses.intensity_exponent, 1.0);
+  EXPECT_TRUE(std::holds_alternative<growth::ConstantPull>(organ.senses.distance));
+  EXPECT_EQ(organ.senses.oscillator.amplitude, 0.0);
+  EXPECT_EQ(organ.bending.proprioception.actual_length, 0.0);
+  EXPECT_EQ(organ.bending.proprioception.relaxation_length, 0.0);
+  EXPECT_TRUE(organ.bending.proprioception.set_point.isZero(0.0));
+  EXPECT_FALSE(organ.bending.saturation);
+  EXPECT_FALSE(organ.bending.rotation);
   EXPECT_EQ(organ.division, rod::DivisionMode::keep_strain);
   EXPECT_EQ(organ.base_support, rod::BaseSupport::clamped);
   EXPECT_TRUE(organ.loads.tip_force.isZero(0.0));
@@ -291,8 +339,9 @@ organs:
     radius: 0.8 mm
     material: {young_modulus: 10 MPa, poisson_ratio: 0.5, density: 1000 kg/m^3}
     growth: {profile: apical_flat, rate: 0.05 1/h, zone_length: 10 mm}
-    sensitivities: {gravity: 0.1, light_direction: 0.3, point_source: 0.3, softening_length: 1 mm}
-    proprioception_length: 0.06 mm
+    sensitivities: {gravity: 0.1, light_direction: 0.3, point_source: 0.3, softening_length: 1 mm, distance: {law: gaussian, length: 5 cm}}
+    circumnutation: {form: oscillator, amplitude: 0.1, period: 2 h, phase: 0 rad}
+    proprioception: {intrinsic_length: 0.06 mm, set_point: [0 1/m, 1 1/m]}
     division: {longest_element: 1 mm, mode: keep_strain}
     tip_force: [0 N, 0 N, 0 N]
     line_force: [0 N/m, 0 N/m, 0 N/m]
@@ -395,6 +444,53 @@ INSTANTIATE_TEST_SUITE_P(
                "organs[0].held_apex", "^is 'true'; give a mapping"}));
 
 INSTANTIATE_TEST_SUITE_P(
+    Senses, SpoiltScenario,
+    testing::Values(
+        Spoilt{"law: gaussian", "law: linear", "organs[0].sensitivities.distance.law",
+               "^'linear' is not known; give 'constant', 'inverse_power', 'exponential', 'gaussian' or 'sampled'$"},
+        Spoilt{"law: gaussian, length: 5 cm", "law: gaussian", "organs[0].sensitivities.distance.length",
+               "^is missing; give a length"},
+        Spoilt{"law: gaussian, length: 5 cm", "law: constant, length: 5 cm", "organs[0].sensitivities.distance.length",
+               "^is an unknown key; known here are 'law'$"},
+        Spoilt{"law: gaussian, length: 5 cm", "law: inverse_power, length: 5 cm, exponent: -1",
+               "organs[0].sensitivities.distance.exponent", "must be >= 0$"},
+        Spoilt{"softening_length: 1 mm, distance: {law: gaussian, length: 5 cm}",
+               "softening_length: 0 mm, distance: {law: inverse_power, length: 5 cm, exponent: 2}",
+               "organs[0].sensitivities.distance", "^the pull grows inf times .*; give a longer softening_length$"},
+        Spoilt{"softening_length: 1 mm, distance: {law: gaussian, length: 5 cm}",
+               "softening_length: 1 um, distance: {law: inverse_power, length: 5 cm, exponent: 2}",
+               "organs[0].sensitivities.distance", "^the pull grows 2.5e\\+09 times"},
+        Spoilt{"law: gaussian, length: 5 cm", "law: sampled, distances: [0 m, 1 m], factors: [1]",
+               "organs[0].sensitivities.distance", "^the distance law has 2 distances and 1 factors; give as many"},
+        Spoilt{"law: gaussian, length: 5 cm", "law: sampled, distances: [1 m, 1 m], factors: [1, 2]",
+               "organs[0].sensitivities.distance", "^distances of the distance law must increase$"},
+        Spoilt{"law: gaussian, length: 5 cm", "law: sampled, distances: [0 m, 1], factors: [1, 2]",
+               "organs[0].sensitivities.distance.distances[1]", "^'1' has no unit; give a length"},
+        Spoilt{"law: gaussian, length: 5 cm", "law: sampled, distances: [0 m], factors: [1 m]",
+               "organs[0].sensitivities.distance.factors[0]", "^'1 m' is not a number without a unit"},
+        Spoilt{"law: gaussian, length: 5 cm", "law: sampled, distances: [0 m], factors: 1",
+               "organs[0].sensitivities.distance.factors", "^is '1'; give a sequence, each a number without a unit$"},
+        Spoilt{"softening_length: 1 mm", "softening_length: 1 mm, intensity_exponent: 0",
+               "organs[0].sensitivities.intensity_exponent", "must be > 0 and <= 10$"},
+        Spoilt{"form: oscillator", "form: spiral", "organs[0].circumnutation.form",
+               "^'spiral' is not known; give 'oscillator' or 'rotation'$"},
+        Spoilt{"amplitude: 0.1", "amplitude: -0.1", "organs[0].circumnutation.amplitude", "must be >= 0$"},
+        Spoilt{"amplitude: 0.1, ", "", "organs[0].circumnutation.amplitude", "^is missing"},
+        Spoilt{"period: 2 h", "period: 0 h", "organs[0].circumnutation.period", "^'0 h' is no period; must not be 0 s"},
+        Spoilt{"phase: 0 rad", "phase_gradient: 1 rad", "organs[0].circumnutation.phase_gradient",
+               "^'1 rad' is an angle; give an angle per length such as '10 deg/cm'$"},
+        Spoilt{"oscillator, amplitude: 0.1, period: 2 h, phase: 0 rad", "rotation, period: 2 h, gate: 1",
+               "organs[0].circumnutation.gate", "must be >= 0 and < 1$"},
+        Spoilt{"{intrinsic_length: 0.06 mm, set_point: [0 1/m, 1 1/m]}", "{}",
+               "organs[0].proprioception.intrinsic_length",
+               "^is missing; give it, 'actual_length' or 'relaxation_length"},
+        Spoilt{"[0 1/m, 1 1/m]", "[0 1/m, 1 1/m, 0 1/m]", "organs[0].proprioception.set_point",
+               "^has 3 components; give two, about d1 and d2$"},
+        Spoilt{"[0 1/m, 1 1/m]", "[0 1/m, 1 m]", "organs[0].proprioception.set_point[1]", "give a curvature"},
+        Spoilt{"zone_length: 10 mm", "zone_length: 10 mm, twist_transport: both", "organs[0].growth.twist_transport",
+               "^'both' is not known; give 'angle' or 'rate'$"}));
+
+INSTANTIATE_TEST_SUITE_P(
     Ranges, SpoiltScenario,
     testing::Values(
         Spoilt{"radius: 0.8 mm", "radius: -0.8 mm", "organs[0].radius", "^'-0.8 mm' is out of range; must be > 0 m$"},
@@ -414,7 +510,7 @@ INSTANTIATE_TEST_SUITE_P(
         Spoilt{"zone_length: 10 mm", "zone_length: 0 mm", "organs[0].growth.zone_length", "must be > 0 m$"},
         Spoilt{"softening_length: 1 mm", "softening_length: -1 mm", "organs[0].sensitivities.softening_length",
                "must be >= 0 m$"},
-        Spoilt{"0.06 mm", "-1 mm", "organs[0].proprioception_length", "must be >= 0 m$"},
+        Spoilt{"0.06 mm", "-1 mm", "organs[0].proprioception.intrinsic_length", "must be >= 0 m$"},
         Spoilt{"longest_element: 1 mm", "longest_element: 0 mm", "organs[0].division.longest_element",
                "must be > 0 m or inf$"},
         Spoilt{"longest_element: 1 mm", "longest_element: 1 nm", "organs[0].division.longest_element",
@@ -441,8 +537,9 @@ INSTANTIATE_TEST_SUITE_P(
         Spoilt{"tip_force:", "tip_froce:", "organs[0].tip_froce", "did you mean 'tip_force'\\?$"},
         Spoilt{"tip_force:", "colour: green\n    tip_force:", "organs[0].colour",
                "^is an unknown key; known here are 'id', 'base', .* and 'rest_curvature'$"},
-        Spoilt{"zone_length: 10 mm", "zone_length: 10 mm, steepness: 15", "organs[0].growth.steepness",
-               "^is an unknown key; known here are 'elongation', 'profile', 'rate' and 'zone_length'$"},
+        Spoilt{
+            "zone_length: 10 mm", "zone_length: 10 mm, steepness: 15", "organs[0].growth.steepness",
+            "^is an unknown key; known here are 'elongation', 'twist_transport', 'profile', 'rate' and 'zone_length'$"},
         Spoilt{"roll: 0 deg", "roll: 0 deg, roll: 1 deg", "organs[0].base.roll", "^is given twice, first on line 11$"},
         Spoilt{"name: one_organ", "description: nameless", "name", "^is missing; give a letter followed by"},
         Spoilt{"duration: 8 h", "? [a, b]\n: 8 h", "", "has a key that is a sequence; keys are plain words"}));
@@ -459,7 +556,7 @@ INSTANTIATE_TEST_SUITE_P(
         Spoilt{"profile: apical_flat, ", "", "organs[0].growth.profile", "^is missing; give 'logistic', 'uniform' or"},
         Spoilt{", zone_length: 10 mm", "", "organs[0].growth.zone_length", "^is missing; give a length"},
         Spoilt{"gravity: 0.1, ", "", "organs[0].sensitivities.gravity", "^is missing; give a number without a unit$"},
-        Spoilt{", softening_length: 1 mm", "", "organs[0].sensitivities.softening_length", "^is missing"},
+        Spoilt{"softening_length: 1 mm, ", "", "organs[0].sensitivities.softening_length", "^is missing"},
         Spoilt{"longest_element: 1 mm, ", "", "organs[0].division.longest_element", "^is missing"},
         Spoilt{"  step: 1 min\n  limits", "  limits", "stepping.step", "^is missing; give a time such as '10 min'$"},
         Spoilt{"{id: lamp, pos", "{pos", "stimuli.point_sources[0].id", "^is missing"},
@@ -576,21 +673,21 @@ TEST(ScenarioYaml, KinematicRelaxationRefusesWhatItWouldIgnore) {
       "test:8: relaxation.max_iterations: is an unknown key; known here are 'method'\n"
       "test:11: organs[0].base.support: 'hinged' needs forces that turn the organ, and kinematic relaxation knows "
       "none; give 'clamped'\n"
-      "test:19: organs[0].division.mode: 'keep_positions' leaves a strain defect that kinematic relaxation never "
+      "test:20: organs[0].division.mode: 'keep_positions' leaves a strain defect that kinematic relaxation never "
       "removes; give 'keep_strain'\n"
-      "test:20: organs[0].tip_force: " +
-          no_effect + "test:21: organs[0].line_force: " + no_effect +  //
-          "test:22: organs[0].tip_couple: " + no_effect + "test:24: organs[0].springs: " + no_effect +
-          "test:26: organs[0].walls: " + no_effect + "test:27: organs[0].held_apex: " + no_effect);
+      "test:21: organs[0].tip_force: " +
+          no_effect + "test:22: organs[0].line_force: " + no_effect +  //
+          "test:23: organs[0].tip_couple: " + no_effect + "test:25: organs[0].springs: " + no_effect +
+          "test:27: organs[0].walls: " + no_effect + "test:28: organs[0].held_apex: " + no_effect);
 }
 
 TEST(ScenarioYaml, MotionInTimeRefusesWhatIsInfinitelyStiff) {
   for (const std::string method : {"method: dynamic", "method: continuous, growth_per_second: 1 h"}) {
     EXPECT_EQ(
         list(problemsOf(changed({{"method: static, max_iterations: 100", method}}))),
-        "test:26: organs[0].walls[0].stiffness: 'rigid' needs static relaxation: no time step is short enough for "
+        "test:27: organs[0].walls[0].stiffness: 'rigid' needs static relaxation: no time step is short enough for "
         "it; give a stiffness\n"
-        "test:27: organs[0].held_apex: needs static relaxation: no time step is short enough for it; tie the apex "
+        "test:28: organs[0].held_apex: needs static relaxation: no time step is short enough for it; tie the apex "
         "with a spring");
   }
 }
@@ -708,11 +805,13 @@ TEST(ScenarioYaml, AllProblemsOfAFileAreReportedInOrderOfLine) {
             "mm'\n" +
             file + ":10: organs[0].radius: '0.8' has no unit; give a length such as '0.8 mm'\n" + file +
             ":11: organs[0].material: needs exactly one of 'poisson_ratio' and 'shear_modulus'\n" + file +
-            ":12: organs[0].growth.zone_length: is an unknown key; known here are 'elongation', 'profile' and "
+            ":12: organs[0].growth.zone_length: is an unknown key; known here are 'elongation', 'twist_transport', "
+            "'profile' and "
             "'rate'\n" +
             file + ":13: organs[0].sensitivities.softening_length: is missing; give a length such as '0.8 mm'\n" +
             file +
-            ":14: organs[0].proprioception_length: '1,5 mm' does not begin with a finite number and a blank; give a "
+            ":14: organs[0].proprioception.intrinsic_length: '1,5 mm' does not begin with a finite number and a blank; "
+            "give a "
             "length such as '0.8 mm'");
     EXPECT_EQ(error.problems().size(), 12u);
   }
@@ -817,6 +916,29 @@ TEST(Documentation, NamesExactlyTheKeysOfTheGoodFiles) {
   EXPECT_THAT(used, testing::ContainerEq(documented));
 }
 
+/// The table of the parameters that may change, name and type.
+std::vector<std::pair<std::string, std::string>> documentedParameters() {
+  std::vector<std::pair<std::string, std::string>> rows;
+  std::ifstream in("../docs/scenario.md");
+  std::string line;
+  while (std::getline(in, line) && line != "| parameter | type | of organs with |") continue;
+  const std::regex row(R"(^\| ([a-z_.]+) \| ([^|]+) \|.*)");
+  std::smatch match;
+  std::getline(in, line);
+  while (std::getline(in, line) && std::regex_match(line, match, row)) rows.emplace_back(match[1], match[2]);
+  return rows;
+}
+
+TEST(Documentation, NamesExactlyTheParametersThatMayChange) {
+  std::vector<std::pair<std::string, std::string>> known;
+  for (const Parameter& parameter : parameters()) {
+    const std::string type = parameter.dimension ? parameter.dimension->name : "a –";
+    known.emplace_back(parameter.name, type.substr(type.find(' ') + 1));
+    EXPECT_EQ(documentedKeys().count("organs[]." + parameter.name), 1u) << parameter.name;
+  }
+  EXPECT_THAT(documentedParameters(), testing::ContainerEq(known));
+}
+
 /// Spoils a text in one of the ways that people and disks do.
 std::string mutate(std::string text, std::mt19937& random) {
   static const std::vector<std::string> snippets = {"inf",
@@ -884,12 +1006,13 @@ std::string mutate(std::string text, std::mt19937& random) {
 }
 
 TEST(ScenarioYaml, SpoiltTextIsReadOrRefusedButNothingElse) {
-  const std::string originals[] = {contentOf(good + "all_keys.yaml"), contentOf(good + "loads.yaml")};
+  const std::string originals[] = {contentOf(good + "all_keys.yaml"), contentOf(good + "loads.yaml"),
+                                   contentOf(good + "senses.yaml")};
   std::mt19937 random(20);
   int refused = 0;
   constexpr int trials = 1500;
   for (int i = 0; i < trials; ++i) {
-    const std::string text = mutate(originals[i % 2], random);
+    const std::string text = mutate(originals[i % 3], random);
     try {
       const Scenario scenario = parseScenario(text, "test");
       EXPECT_GT(scenario.stepping.step, 0.0) << text;
@@ -899,6 +1022,8 @@ TEST(ScenarioYaml, SpoiltTextIsReadOrRefusedButNothingElse) {
         EXPECT_TRUE(organ.base.position.allFinite() && organ.base.frame.coeffs().allFinite()) << text;
         EXPECT_GT(organ.section.shear_modulus, 0.0) << text;
         EXPECT_EQ(mechanics::findFault(organ.loads.surroundings), std::nullopt) << text;
+        EXPECT_EQ(growth::findFault(organ.senses), std::nullopt) << text;
+        EXPECT_EQ(growth::findFault(organ.bending), std::nullopt) << text;
       }
     } catch (const ScenarioError& error) {
       ++refused;

@@ -40,7 +40,7 @@ Scenario shoot() {
   OrganScenario& organ = scenario.organs.front();
   organ.section = support::section(0.03, 1.0, 1.0);
   organ.senses = {0.05, 0.1, 0.1, 0.01};
-  organ.bending.proprioception_length = 0.01;
+  organ.bending.proprioception.intrinsic_length = 0.01;
   organ.longest_element = 0.06;
   return scenario;
 }
@@ -299,7 +299,7 @@ TEST(StepLimits, CountTheStraighteningToo) {
   // 10 per unit length, gamma / R = 2: 20 per unit length and strain, 1 rad per bend and strain, in a step of 0.1.
   EXPECT_EQ(partsWith([](Scenario& s) {
               s.organs.front().rest_curvature = {0.0, 10.0, 0.0};
-              s.organs.front().bending.proprioception_length = 0.1;
+              s.organs.front().bending.proprioception.intrinsic_length = 0.1;
               s.stepping.limits.bend_angle = 0.06;
             }),
             2);
@@ -445,7 +445,7 @@ TEST(Simulation, AnOrganThatSwingsAboutTheVerticalDoesNotFail) {
   organ.section = support::section(0.02, 1.0, 1.0);
   organ.profile = growth::ApicalFlatProfile{1.0, 0.6};
   organ.senses.gravity = 0.4 * 0.02;
-  organ.bending.proprioception_length = 0.4 * 0.02;
+  organ.bending.proprioception.intrinsic_length = 0.4 * 0.02;
   organ.longest_element = 0.1;
   Simulation simulation(scenario);
   for (int i = 0; i < 120; ++i) {

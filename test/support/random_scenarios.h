@@ -91,18 +91,42 @@ inline std::string growthPart(Dice& dice, const Draft& draft) {
   const std::string profile = dice.pick<std::string>(
       {"uniform", "apical_flat" + zone, "logistic" + zone + ", steepness: " + si(dice.logBetween(1.0, 100.0), "")});
   return "growth: {profile: " + profile + ", rate: " + rate +
-         ", elongation: " + dice.pick<std::string>({"true", "true", "false"}) + "}\n";
+         ", elongation: " + dice.pick<std::string>({"true", "true", "false"}) +
+         ", twist_transport: " + dice.pick<std::string>({"angle", "rate"}) + "}\n";
+}
+
+inline std::string distanceLaw(Dice& dice, const Draft& draft) {
+  const std::string length = ", length: " + si(draft.length * dice.logBetween(0.1, 10.0), "m");
+  return dice.pick<std::string>({"constant", "constant", "inverse_power" + length + ", exponent: 2",
+                                 "exponential" + length, "gaussian" + length});
 }
 
 inline std::string sensesPart(Dice& dice, const Draft& draft) {
   return "sensitivities: {gravity: " + sensitivityOf(dice) + ", light_direction: " + sensitivityOf(dice) +
          ", point_source: " + sensitivityOf(dice) +
-         ", softening_length: " + si(dice.chance(0.2) ? 0.0 : draft.radius * dice.logBetween(0.01, 10.0), "m") + "}\n";
+         ", softening_length: " + si(draft.radius * dice.logBetween(0.01, 10.0), "m") +
+         ", intensity_exponent: " + si(dice.chance(0.5) ? 1.0 : dice.logBetween(0.2, 3.0), "") +
+         ", distance: {law: " + distanceLaw(dice, draft) + "}}\n" +
+         "saturation: " + dice.pick<std::string>({"true", "false"}) + "\n";
 }
 
 inline std::string proprioceptionPart(Dice& dice, const Draft& draft) {
-  return "proprioception_length: " + si(dice.chance(0.2) ? 0.0 : draft.radius * dice.logBetween(0.01, 100.0), "m") +
-         "\n";
+  const auto length = [&](const std::string& key, double largest) {
+    return key + ": " + si(dice.chance(0.4) ? 0.0 : draft.radius * dice.logBetween(0.01, largest), "m");
+  };
+  const double curvature = 0.5 / draft.length;
+  return "proprioception: {" + length("intrinsic_length", 100.0) + ", " + length("actual_length", 10.0) + ", " +
+         length("relaxation_length", 1.0) + ", set_point: [" + si(dice.between(-curvature, curvature), "1/m") + ", " +
+         si(dice.between(-curvature, curvature), "1/m") + "]}\n";
+}
+
+inline std::string circumnutationPart(Dice& dice, const Draft& draft) {
+  const std::string period =
+      ", period: " + si(draft.step * dice.pick<double>({-1.0, 1.0}) * dice.logBetween(5.0, 500.0), "s");
+  if (dice.chance(0.6)) return "";
+  if (dice.chance(0.3)) return "circumnutation: {form: rotation" + period + "}\n";
+  return "circumnutation: {form: oscillator, amplitude: " + si(dice.logBetween(0.01, 1.0), "") + period +
+         ", phase: " + si(dice.between(0.0, 6.0), "rad") + "}\n";
 }
 
 inline std::string divisionPart(Dice& dice, const Draft& draft) {
@@ -154,8 +178,9 @@ using OrganPart = std::string (*)(Dice&, const Draft&);
 
 /// Every mechanism of an organ: a new one goes in here.
 inline const std::vector<OrganPart>& organParts() {
-  static const std::vector<OrganPart> parts = {growthPart, sensesPart,        proprioceptionPart, divisionPart,
-                                               sourcePart, restCurvaturePart, loadsPart,          surroundingsPart};
+  static const std::vector<OrganPart> parts = {growthPart,   sensesPart,       proprioceptionPart,
+                                               divisionPart, sourcePart,       restCurvaturePart,
+                                               loadsPart,    surroundingsPart, circumnutationPart};
   return parts;
 }
 

@@ -13,7 +13,7 @@ constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 inline simulation::StepLimits noLimits() {
   simulation::StepLimits limits;
-  limits.tip_advance = limits.growth_strain = limits.bend_angle = limits.total_angle = kUnlimited;
+  limits.tip_advance = limits.growth_strain = limits.bend_angle = limits.total_angle = limits.oscillation = kUnlimited;
   return limits;
 }
 

@@ -4,10 +4,13 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "sensory_growth/growth/distance_law.h"
 #include "sensory_growth/growth/environment.h"
 #include "sensory_growth/rod/rod.h"
 
@@ -34,8 +37,14 @@ struct Senses {
   double point_source = 0.0;
   double softening_length =
       0.0;  ///< distance to a point source below which its pull fades, so that it stays finite [m]
+  double intensity_exponent =
+      1.0;  ///< lights and point sources of strength I act as |I|^exponent, with the sign of I [-]
+  DistanceLaw distance = ConstantPull{};  ///< of the pull of point sources
   Oscillator oscillator = {};
 };
+
+/// Why the senses make no sense, or nothing.
+std::optional<std::string> findFault(const Senses& senses);
 
 /// Somewhere in an organ.
 struct Place {
@@ -56,6 +65,7 @@ class CueField {
   SectionCues at(const Place& place) const;
 
  private:
+  double response(double strength) const;
   rod::Vector3 towardsPointSources(const rod::Vector3& position) const;
   Eigen::Vector2d oscillation(double from_apex) const;
 

@@ -34,8 +34,14 @@ class Elongation {
   std::vector<double> initial_, stage_, slope_;
 };
 
-/// Gives the elements their new lengths and dilutes the rest twist, so that the twist angle is carried along
-/// (model.md 3.2).
-void elongate(rod::Rod& rod, const GrowthStrain& strain);
+/// What growth does to twist (model.md 3.2).
+enum class TwistTransport {
+  angle,  ///< the angle is carried along, so that the shape does not depend on how frames are labelled; twist dilutes
+  rate,   ///< twist per length stays, as in tissue whose growth follows helical fibres
+};
+
+/// Gives the elements their new lengths. If the twist angle is carried along, dilutes the rest twist and the third
+/// component of the drive that acts on it (differential_growth.h).
+void elongate(rod::Rod& rod, const GrowthStrain& strain, TwistTransport twist, std::vector<rod::Vector3>& drive);
 
 }  // namespace sensory_growth::growth

@@ -24,6 +24,10 @@ Loads scaled(const Loads& loads, double factor);
 /// Dead force on `vertex` [N].
 rod::Vector3 vertexForce(const rod::Rod& rod, const Loads& loads, std::size_t vertex);
 
+/// The couple on the apex in the frame of the last element, whose middle is half a cell below it [N m]. It is
+/// constant: the curvature between the two is what the couple makes it.
+rod::Vector3 coupleOnLastElement(const rod::Rod& rod, const Loads& loads);
+
 /// Dead force that element e carries, the sum of the forces on all vertices beyond it [N]; size n.
 void elementForces(const rod::Rod& rod, const Loads& loads, std::vector<rod::Vector3>& forces);
 

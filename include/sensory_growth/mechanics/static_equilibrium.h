@@ -26,14 +26,18 @@ class StaticEquilibrium {
   StaticEquilibrium(StaticEquilibrium&&) noexcept;
   StaticEquilibrium& operator=(StaticEquilibrium&&) noexcept;
 
-  /// Moves the rod from where it stands to a stable equilibrium. On failure the rod is left as it was given. A rod in
-  /// surroundings is left to SupportedEquilibrium.
+  /// Moves the rod from the shape of its curvature to a stable equilibrium. On failure the rod is left as it was given.
+  /// A rod in surroundings is left to SupportedEquilibrium.
   RelaxationReport relax(rod::Rod& rod, const Loads& loads, Stability stability = Stability::measured);
 
   /// Two iterations from a rod that is already close, such as one that has grown a little: their error is of fourth
   /// order in the distance. Neither residual nor stability are looked at. A rod that is not close, or is unstable, is
   /// relaxed instead.
   RelaxationReport approach(rod::Rod& rod, const Loads& loads);
+
+  /// Decides about stability and relaxes like relax() the rod of the last approach(), of which only curvatures have
+  /// changed since: takes over no more than these.
+  RelaxationReport relaxCorrected(rod::Rod& rod, const Loads& loads);
 
   /// For loads that are too much for relax() at once: starts again from the unloaded rod and applies them in steps, as
   /// long as the rod can follow and as short as it needs. Where several equilibria are stable, this may find another
@@ -48,6 +52,8 @@ class StaticEquilibrium {
 
  private:
   struct Workspace;
+  RelaxationReport relaxAssigned(rod::Rod& rod, const Loads& loads, Stability stability, bool is_close);
+
   RelaxationSettings settings_;
   std::unique_ptr<Workspace> workspace_;
 };

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "sensory_growth/growth/environment.h"
+#include "sensory_growth/growth/cues.h"
 #include "sensory_growth/mechanics/energy.h"
 #include "sensory_growth/mechanics/surroundings.h"
 #include "sensory_growth/rod/rod.h"
@@ -21,6 +21,7 @@ struct OrganSnapshot {
   std::string id;
   rod::Rod rod;
   std::vector<double> growth_rates;  ///< of the elements [1/s]
+  growth::CueFields cues;
   mechanics::Energy energy;
   mechanics::Surroundings surroundings;
   simulation::OrganReport report;  ///< of the step that led here

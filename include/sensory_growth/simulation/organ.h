@@ -54,7 +54,7 @@ class Organ {
   /// failure (report.ok() is false) the organ is left as it was before the call.
   const OrganReport& advance(double dt, const growth::Environment& environment);
 
-  /// Takes back the last advance(), its report included. What was set before it stays set.
+  /// Takes back the last advance(), its report included; once. What was set before it stays set.
   void undo();
 
   /// Gives a parameter that the organ has another value, from the next step on.
@@ -79,12 +79,19 @@ class Organ {
   /// Relative elongation rate of every element as the organ stands [1/s].
   std::vector<double> growthRates() const;
 
+  /// What every bend senses of every cue as the organ stands.
+  growth::CueFields cues(const growth::Environment& environment) const;
+
  private:
   double longestPart(const growth::Environment& environment, double time);
   OrganFault growAndRelax(double dt, const growth::Environment& environment, double time);
+  bool startsWithStep() const { return report_.substeps == 0 && !weight_changed_before_step_; }
+  const rod::Rod& beforePart() const { return startsWithStep() ? before_step_ : before_part_; }
+  double elasticAmplification() const;
   OrganFault relax();
   OrganFault relaxFromAnywhere();
   OrganFault relaxInPassing();
+  OrganFault relaxCorrected();
   OrganFault move(double duration);
   OrganFault take(const mechanics::RelaxationReport& relaxation);
 
@@ -100,8 +107,9 @@ class Organ {
   mechanics::DynamicRelaxation dynamics_;
   growth::Elongation elongation_;
   growth::CueFields cues_;
-  std::vector<Eigen::Vector2d> drive_, new_drive_;
+  std::vector<rod::Vector3> drive_, new_drive_;
   std::vector<double> rates_;
+  double amplification_ = 1.0, amplification_before_step_ = 1.0;  ///< as the last part left it
   OrganReport report_, report_before_step_;
   bool weight_changed_ = false, weight_changed_before_step_ = false;  ///< since the last relaxation
   bool has_begun_ = false;

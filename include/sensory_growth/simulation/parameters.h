@@ -36,8 +36,9 @@ std::string whyUnknown(const std::string& name);
 /// Why the command makes sense for no organ (no such parameter, value out of range), or nothing.
 std::optional<std::string> findFault(const ParameterCommand& command);
 
-/// The same among these organs: there must be the one meant, and it must have that part.
-std::optional<std::string> findFault(const ParameterCommand& command, const std::vector<OrganScenario>& organs);
+/// Applies the command to the organs it means, or leaves all as they were and returns why: there must be such an organ,
+/// it must have that part, and the value must go with its others.
+std::optional<std::string> apply(const ParameterCommand& command, std::vector<OrganScenario>& organs);
 
 /// Whether the command means this organ.
 bool addresses(const ParameterCommand& command, const OrganScenario& organ);

@@ -48,6 +48,7 @@ struct OrganScenario {
 
   growth::Profile profile = growth::UniformProfile{};
   bool elongation = true;  ///< off: the organ bends by growth but keeps its length (the AC model)
+  growth::TwistTransport twist_transport = growth::TwistTransport::angle;
   growth::Senses senses;
   growth::BendingLaw bending;
   std::optional<OrganSource> source;  ///< nothing: the others do not sense it
@@ -62,6 +63,7 @@ struct StepLimits {
   double growth_strain = 0.05;  ///< of any element [-]
   double bend_angle = 0.02;     ///< turning of one bend [rad]
   double total_angle = 0.1;     ///< summed turning of all bends [rad]
+  double oscillation = 0.1;     ///< of any circumnutation, as a fraction of its period [-]
   double smallest_part =
       1.0 / 4096.0;  ///< of a step; when failing relaxations or the limits above ask for less, it fails [-]
 };

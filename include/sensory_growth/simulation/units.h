@@ -19,6 +19,7 @@ inline constexpr Dimension length{"a length", "m", "0.8 mm"};
 inline constexpr Dimension time{"a time", "s", "10 min"};
 inline constexpr Dimension rate{"a rate", "1/s", "0.05 1/h"};
 inline constexpr Dimension angle{"an angle", "rad", "0.1 rad"};
+inline constexpr Dimension angle_gradient{"an angle per length", "rad/m", "10 deg/cm"};
 inline constexpr Dimension curvature{"a curvature", "1/m", "5 1/m"};
 inline constexpr Dimension acceleration{"an acceleration", "m/s^2", "9.81 m/s^2"};
 inline constexpr Dimension modulus{"an elastic modulus", "Pa", "10 MPa"};

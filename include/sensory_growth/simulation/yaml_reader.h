@@ -46,7 +46,10 @@ class YamlReader {
   int count(const std::string& key, int low, int high, std::optional<int> fallback = {});
   double number(const std::string& key, const Range& range, std::optional<double> fallback = {});
   double quantity(const std::string& key, const Dimension& dimension, const Range& range,
-                  std::optional<double> fallback = {});  ///< in SI
+                  std::optional<double> fallback = {});                     ///< in SI
+  std::vector<double> numbers(const std::string& key, const Range& range);  ///< one or more
+  std::vector<double> quantities(const std::string& key, const Dimension& dimension,
+                                 const Range& range);  ///< one or more, in SI
   rod::Vector3 vector(const std::string& key, const Dimension& dimension,
                       std::optional<rod::Vector3> fallback = {});  ///< in SI
   rod::Vector3 direction(const std::string& key);                  ///< of unit length
@@ -105,7 +108,10 @@ class YamlReader {
   std::optional<std::string> scalar(const std::string& key, Presence presence, const std::string& request);
   using Parse = std::function<double(const std::string&)>;
   double convert(const std::string& key, int line, const std::string& text, const Parse& parse);
-  rod::Vector3 triple(const std::string& key, const std::string& component, const Parse& parse);
+  double component(const YAML::Node& sequence, std::size_t i, const std::string& key, const std::string& request,
+                   const Parse& parse);
+  std::vector<double> sequence(const std::string& key, const std::string& component_request, const Parse& parse);
+  rod::Vector3 triple(const std::string& key, const std::string& component_request, const Parse& parse);
   void readMapping(const YAML::Node& node, const std::string& key, int line, const Body& body);
   std::string pathOf(const std::string& key) const;
 

@@ -9,12 +9,6 @@
 namespace sensory_growth::mechanics::kernels {
 namespace {
 
-/// Components in the world of the vector x of the frame q.
-inline Vector inWorld(const Quaternion& q, const Vector& x) {
-  const Vector t = Lanes(2.0) * q.v.cross(x);
-  return x + q.w * t + q.v.cross(t);
-}
-
 /// q * exp(theta), of unit length to round-off; exact for |theta| < 0.2 rad, where the series end. The turn of a stable
 /// time step is far smaller.
 inline Quaternion turnedLittle(const Quaternion& q, const Vector& theta) {
@@ -24,9 +18,7 @@ inline Quaternion turnedLittle(const Quaternion& q, const Vector& theta) {
   const Lanes y = half.dot(half);
   const Lanes cosine = polynomial(kCosine, y);
   const Vector u = polynomial(kSineRatio, y) * half;
-  const Quaternion r{q.w * cosine - q.v.dot(u), Vector(cosine * q.v + q.w * u + q.v.cross(u))};
-  const Lanes scale = Lanes(1.5) - Lanes(0.5) * (r.w * r.w + r.v.dot(r.v));  // a Newton step towards 1 / |r|
-  return {r.w * scale, Vector(r.v * scale)};
+  return renormalized({q.w * cosine - q.v.dot(u), Vector(cosine * q.v + q.w * u + q.v.cross(u))});
 }
 
 /// atan(sqrt(u)) / sqrt(u), interpolated at Chebyshev points: to 1e-15 for 0 <= u <= 0.44.

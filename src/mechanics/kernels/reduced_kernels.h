@@ -45,16 +45,27 @@ struct Evaluation {
   double largest_bend = 0.0;      ///< turn between neighbours [rad]
 };
 
-/// Row of the block Cholesky factor A = L D L^T that belongs to one element.
+/// Row of the block Cholesky factor A = L D L^T that belongs to one element, and the right-hand side on its way.
 struct FactorRow {
-  double pivot_inverse[6];  ///< xx, xy, xz, yy, yz, zz
-  double coupling[9];       ///< row e - 1, column e of the unit upper factor, by rows
-  double solution[3];       ///< of the forward elimination
+  double coupling[9];  ///< row e - 1, column e of the unit upper factor, by rows
+  double solution[3];  ///< of the elimination from the tip
+};
+
+/// Inverse of the block of D that belongs to one element: xx, xy, xz, yy, yz, zz.
+struct PivotInverse {
+  double entry[6];
 };
 
 struct Elimination {
   bool positive = false;   ///< the matrix was positive definite; otherwise nothing else holds
   double decrement = 0.0;  ///< -g . step of the Newton step [J]
+};
+
+/// Where a whole Newton step leads.
+struct Advance {
+  double largest_turn = 0.0;  ///< of an element in the step [rad]
+  double last_turn[3] = {};   ///< of the element at the apex [rad]
+  Evaluation there;
 };
 
 /// Vectors that are solved for at once.
@@ -66,24 +77,35 @@ struct BlockProducts {
 };
 
 struct ReducedKernels {
+  /// Frames from the turns of the bends, up from the base frame at index -1. The turns are those of whole packets.
+  void (*rebuild)(const RodView&, const TurnView& bends, const FrameView& frames);
+
   Evaluation (*evaluate)(const RodView&, const FrameView&);
 
-  /// Factors Hessian + shift * 1 and eliminates minus the gradient forward.
-  Elimination (*eliminate)(const RodView&, const FrameView&, double shift, FactorRow*);
+  /// Factors Hessian + shift * 1 and eliminates minus the gradient. The inverses of the pivots, which the Newton step
+  /// does not need, are kept if there is room for them.
+  Elimination (*eliminate)(const RodView&, const FrameView&, double shift, FactorRow*, PivotInverse* room);
 
-  /// Backward substitution after eliminate(): the Newton step. Returns the largest turn of an element [rad].
-  double (*substitute)(const RodView&, const FactorRow*, const TurnView& step);
+  /// The Newton step by substitution after eliminate().
+  void (*substitute)(const RodView&, const FactorRow*, const TurnView& step);
+
+  /// frames turned by the Newton step, and what holds there, in one go through memory.
+  Advance (*advance)(const RodView&, const FactorRow*, const FrameView& frames, const FrameView& moved);
+
+  /// The same without an evaluation.
+  Advance (*advanceBlindly)(const RodView&, const FactorRow*, const FrameView& frames, const FrameView& moved);
 
   /// frames turned by scale * step.
   void (*move)(const RodView&, const FrameView& frames, const TurnView& step, double scale, const FrameView& moved);
 
   /// Y = (Hessian + shift * 1)^-1 mix X after eliminate(), for a block of vectors, of which each component of an
   /// element lies side by side: 3 * kBlock numbers per element. X and Y must not overlap.
-  BlockProducts (*solveBlock)(const RodView&, const FactorRow*, const double (&mix)[kBlock][kBlock], const double* x,
-                              double* y);
+  BlockProducts (*solveBlock)(const RodView&, const FactorRow*, const PivotInverse*,
+                              const double (&mix)[kBlock][kBlock], const double* x, double* y);
 
-  /// Turn of every bend and strain of every element.
-  void (*strains)(const RodView&, const FrameView&, const TurnView& angle, const TurnView& strain);
+  /// Turn of every bend, strain of every element, and its chord in the world over its rest length.
+  void (*strains)(const RodView&, const FrameView&, const TurnView& angle, const TurnView& strain,
+                  const TurnView& chord);
 
   /// Gradient, diagonal blocks (xx, xy, xz, yy, yz, zz) and the blocks at row e - 1, column e (by rows) of the Hessian.
   void (*blocks)(const RodView&, const FrameView&, double (*gradient)[3], double (*diagonal)[6], double (*upper)[9]);

@@ -24,6 +24,23 @@ inline Vector inFrame(const Quaternion& q, const Vector& x) {
   return x - q.w * t + q.v.cross(t);
 }
 
+/// The vector with components x in the frame q, in the world.
+inline Vector inWorld(const Quaternion& q, const Vector& x) {
+  const Vector t = Lanes(2.0) * q.v.cross(x);
+  return x + q.w * t + q.v.cross(t);
+}
+
+inline Quaternion normalized(const Quaternion& q) {
+  const Lanes scale = Lanes(1.0) / sqrt(q.w * q.w + q.v.dot(q.v));
+  return {q.w * scale, Vector(q.v * scale)};
+}
+
+/// The same for a quaternion that is short or long by round-off only: a Newton step towards 1 / |q|.
+inline Quaternion renormalized(const Quaternion& q) {
+  const Lanes scale = Lanes(1.5) - Lanes(0.5) * (q.w * q.w + q.v.dot(q.v));
+  return {q.w * scale, Vector(q.v * scale)};
+}
+
 /// sum of coefficient[k] x^k, k < N.
 template <std::size_t N>
 Lanes polynomial(const double (&coefficient)[N], const Lanes& x) {
@@ -62,9 +79,7 @@ inline Quaternion turned(const Quaternion& q, const Vector& w) {
   const Lanes half2 = Lanes(0.25) * w.dot(w);
   const Lanes cosine = polynomial(kCosine, half2);
   const Vector u = (Lanes(0.5) * polynomial(kSine, half2)) * w;
-  const Quaternion r{q.w * cosine - q.v.dot(u), Vector(cosine * q.v + q.w * u + q.v.cross(u))};
-  const Lanes scale = Lanes(1.0) / sqrt(r.w * r.w + r.v.dot(r.v));
-  return {r.w * scale, Vector(r.v * scale)};
+  return normalized({q.w * cosine - q.v.dot(u), Vector(cosine * q.v + q.w * u + q.v.cross(u))});
 }
 
 /// Rotation vector theta of a turn and the coefficient c of J_l^-1(theta) = 1 - [theta]/2 + c [theta]^2.
