@@ -238,11 +238,13 @@ inline std::string settingText(Dice& dice, const simulation::Scenario& scenario)
     if (parameter.get(organ)) had.push_back(parameter);
   }
   const simulation::Parameter& parameter = dice.pick(had);
-  const double value = *parameter.get(organ) * dice.pick<double>({0.0, 0.5, -1.0, 1.5});
-  return "{organ: " + organ.id + ", name: " + parameter.name + ", value: " +
-         si(parameter.range.contains(value) ? value : *parameter.get(organ),
-            parameter.dimension ? parameter.dimension->unit : "") +
-         "}";
+  simulation::ParameterCommand command{organ.id, parameter.name, *parameter.get(organ)};
+  const double value = command.value * dice.pick<double>({0.0, 0.5, -1.0, 1.5});
+  std::vector<simulation::OrganScenario> organs = scenario.organs;
+  const simulation::ParameterCommand other{organ.id, parameter.name, value};
+  if (!simulation::apply(other, organs)) command = other;
+  return "{organ: " + command.organ + ", name: " + command.name +
+         ", value: " + si(command.value, parameter.dimension ? parameter.dimension->unit : "") + "}";
 }
 
 inline std::string protocolText(Dice& dice, const Draft& draft, const simulation::Scenario& scenario) {
