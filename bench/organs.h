@@ -34,8 +34,9 @@ inline simulation::Simulation growingStems(std::size_t organs, std::size_t eleme
   }
   using simulation::StimulusKind;
   using simulation::StimulusOperation;
-  scenario.protocol = {{0.0, {StimulusKind::light_direction, StimulusOperation::add, "sun", {1.0, 0.3, 0.0}, 1.0}},
-                       {0.0, {StimulusKind::point_source, StimulusOperation::add, "lamp", {0.1, 0.1, 0.2}, 1.0}}};
+  scenario.protocol = {
+      {0.0, StimulusCommand{StimulusKind::light_direction, StimulusOperation::add, "sun", {1.0, 0.3, 0.0}, 1.0}},
+      {0.0, StimulusCommand{StimulusKind::point_source, StimulusOperation::add, "lamp", {0.1, 0.1, 0.2}, 1.0}}};
   return simulation::Simulation(scenario, threads);
 }
 

@@ -59,6 +59,7 @@ std::optional<std::string> findFault(const Senses& senses) {
 CueField::CueField(const Senses& senses, const Environment& environment, double time)
     : senses_(senses),
       point_sources_(environment.point_sources),
+      later_(time - environment.time),
       up_(-senses.gravity * environment.down),
       towards_lights_(rod::Vector3::Zero()),
       apical_phase_(kTurn * time / senses.oscillator.period + senses.oscillator.phase) {
@@ -85,7 +86,7 @@ double CueField::response(double strength) const {
 rod::Vector3 CueField::towardsPointSources(const rod::Vector3& position) const {
   rod::Vector3 sum = rod::Vector3::Zero();
   for (const PointSource& source : point_sources_) {
-    const rod::Vector3 towards = source.position - position;
+    const rod::Vector3 towards = source.place(later_) - position;
     const double distance = softened(towards, senses_.softening_length);
     if (!(distance > 0.0)) continue;
     sum += (senses_.point_source * response(source.strength) * factor(senses_.distance, distance) / distance) * towards;

@@ -1,5 +1,7 @@
 #include "sensory_growth/ros/conversions.h"
 
+#include <variant>
+
 #include "sensory_growth/ros/names.h"
 
 namespace sensory_growth::node {
@@ -33,19 +35,19 @@ std::uint8_t toConstant(RelaxationReason reason) {
 }
 
 std::uint8_t toConstant(StimulusKind kind) {
-  return kind == StimulusKind::point_source ? AppliedStimulus::POINT_SOURCE : AppliedStimulus::LIGHT_DIRECTION;
+  return kind == StimulusKind::point_source ? AppliedCommand::POINT_SOURCE : AppliedCommand::LIGHT_DIRECTION;
 }
 
 std::uint8_t toConstant(StimulusOperation operation) {
   switch (operation) {
     case StimulusOperation::add:
-      return AppliedStimulus::ADD;
+      return AppliedCommand::ADD;
     case StimulusOperation::change:
-      return AppliedStimulus::CHANGE;
+      return AppliedCommand::CHANGE;
     case StimulusOperation::remove:
-      return AppliedStimulus::REMOVE;
+      return AppliedCommand::REMOVE;
   }
-  return AppliedStimulus::ADD;
+  return AppliedCommand::ADD;
 }
 
 /// PointSource and LightDirection number their operations alike.
@@ -63,6 +65,26 @@ std::optional<StimulusOperation> toOperation(std::uint8_t constant) {
     default:
       return std::nullopt;
   }
+}
+
+void fill(AppliedCommand& message, const StimulusCommand& command) {
+  message.kind = toConstant(command.kind);
+  message.operation = toConstant(command.operation);
+  message.id = command.id;
+  message.vector = toVector(command.vector);
+  message.strength = command.strength;
+}
+
+void fill(AppliedCommand& message, const simulation::ParameterCommand& command) {
+  message.kind = AppliedCommand::PARAMETER;
+  message.id = command.organ;
+  message.parameter = command.name;
+  message.value = command.value;
+}
+
+void fill(AppliedCommand& message, const simulation::GravityCommand& command) {
+  message.kind = AppliedCommand::GRAVITY;
+  message.vector = toVector(command.acceleration);
 }
 
 template <typename Xyz>
@@ -195,6 +217,7 @@ Stimuli toStimuli(const Snapshot& snapshot, const std::string& frame) {
   message.header = makeHeader(snapshot, frame);
   message.step_index = snapshot.step_index;
   message.epoch = snapshot.epoch;
+  message.gravity = toVector(snapshot.gravity);
   for (const growth::PointSource& source : snapshot.environment.point_sources) {
     PointSource& lamp = message.point_sources.emplace_back();
     lamp.header = message.header;
@@ -214,19 +237,15 @@ Stimuli toStimuli(const Snapshot& snapshot, const std::string& frame) {
   return message;
 }
 
-AppliedStimulus toMessage(const simulation::AppliedStimulus& stimulus, const Snapshot& snapshot,
-                          const std::string& frame) {
-  AppliedStimulus message;
+AppliedCommand toMessage(const simulation::AppliedCommand& applied, const Snapshot& snapshot,
+                         const std::string& frame) {
+  AppliedCommand message;
   message.header = makeHeader(snapshot, frame);
-  message.step_index = stimulus.step;
+  message.step_index = applied.step;
   message.epoch = snapshot.epoch;
-  message.kind = toConstant(stimulus.command.kind);
-  message.operation = toConstant(stimulus.command.operation);
-  message.id = stimulus.command.id;
-  message.vector = toVector(stimulus.command.vector);
-  message.strength = stimulus.command.strength;
-  message.accepted = stimulus.refusal.empty();
-  message.refusal = stimulus.refusal;
+  std::visit([&message](const auto& command) { fill(message, command); }, applied.command);
+  message.accepted = applied.refusal.empty();
+  message.refusal = applied.refusal;
   return message;
 }
 
@@ -247,5 +266,11 @@ StimulusCommand toCommand(const geometry_msgs::PointStamped& message) {
 StimulusCommand toCommand(const geometry_msgs::Vector3Stamped& message) {
   return {StimulusKind::light_direction, StimulusOperation::add, names::kSunLight, toEigen(message.vector), 1.0};
 }
+
+simulation::ParameterCommand toCommand(const SetParameter::Request& request) {
+  return {request.organ, request.name, request.value};
+}
+
+simulation::GravityCommand toCommand(const SetGravity::Request& request) { return {toEigen(request.acceleration)}; }
 
 }  // namespace sensory_growth::node

@@ -15,6 +15,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "sensory_growth/ros/conversions.h"
 #include "sensory_growth/ros/names.h"
 #include "sensory_growth/simulation/scenario_yaml.h"
 
@@ -101,7 +102,7 @@ LoadedScenario loadScenario(const Parameters& parameters, std::vector<std::strin
   collect(problems, [&] {
     if (parameters.protocol.empty()) return;
     auto& protocol = loaded.scenario.protocol;
-    for (auto& stimulus : simulation::loadProtocol(parameters.protocol)) protocol.push_back(std::move(stimulus));
+    for (auto& command : simulation::loadProtocol(parameters.protocol)) protocol.push_back(std::move(command));
     std::stable_sort(protocol.begin(), protocol.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
   });
 
@@ -181,6 +182,10 @@ void Node::advertiseServices() {
   control(names::kPause, [this] { return loop_.pause(); });
   control(names::kResume, [this] { return loop_.resume(); });
   control(names::kReset, [this] { return loop_.reset(); });
+  services_.push_back(serve<SetParameter>(private_node_, names::kSetParameter, control_queue_,
+                                          [this](auto& q, auto& r) { fill(loop_.apply(toCommand(q)), r); }));
+  services_.push_back(serve<SetGravity>(private_node_, names::kSetGravity, control_queue_,
+                                        [this](auto& q, auto& r) { fill(loop_.apply(toCommand(q)), r); }));
   services_.push_back(serve<StartRecording>(private_node_, names::kStartRecording, control_queue_,
                                             [this](auto& q, auto& r) { startRecording(q, r); }));
   services_.push_back(serve<StopRecording>(private_node_, names::kStopRecording, control_queue_,

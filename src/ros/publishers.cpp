@@ -52,7 +52,7 @@ Publishers::Publishers(const Parameters& parameters, const Sources& sources, con
       node_(std::move(private_node)) {
   status_ = advertise<Status>(names::kStatus, kQueue, true);
   stimuli_ = advertise<Stimuli>(names::kStimuli, kQueue, true);
-  applied_ = advertise<AppliedStimulus>(names::kAppliedStimuli, kQueue, false);
+  applied_ = advertise<AppliedCommand>(names::kAppliedCommands, kQueue, false);
   scenario_ = advertise<std_msgs::String>(names::kScenario, 1, true);
   parameter_text_ = advertise<std_msgs::String>(names::kParameters, 1, true);
   markers_ = advertise<visualization_msgs::MarkerArray>(names::kMarkers, 10, true);
@@ -87,10 +87,10 @@ void Publishers::onState(const SnapshotPtr& snapshot) {
   recordMarkers(*snapshot);
 }
 
-void Publishers::onStimulus(const simulation::AppliedStimulus& stimulus, const Snapshot& snapshot) {
-  history_.push_back(shared(toMessage(stimulus, snapshot, parameters_.world_frame)));
+void Publishers::onCommand(const simulation::AppliedCommand& command, const Snapshot& snapshot) {
+  history_.push_back(shared(toMessage(command, snapshot, parameters_.world_frame)));
   send(applied_, snapshot.stamp, history_.back());
-  if (!stimulus.refusal.empty()) ROS_WARN_STREAM_NAMED(names::kLogSimulation, "stimulus refused: " << stimulus.refusal);
+  if (!command.refusal.empty()) ROS_WARN_STREAM_NAMED(names::kLogSimulation, "command refused: " << command.refusal);
 }
 
 void Publishers::onStimuli(const Snapshot& snapshot) {
@@ -181,7 +181,7 @@ void Publishers::recordPreamble(const Snapshot& snapshot) {
   record(scenario_, snapshot.stamp, text(sources_.scenario));
   if (!sources_.protocol.empty()) record(protocol_, snapshot.stamp, text(sources_.protocol));
   record(tf_static_, snapshot.stamp, shared(staticTransforms(snapshot, frames_)));
-  for (const auto& stimulus : history_) record(applied_, snapshot.stamp, stimulus);
+  for (const auto& command : history_) record(applied_, snapshot.stamp, command);
   record(stimuli_, snapshot.stamp, shared(toStimuli(snapshot, parameters_.world_frame)));
   for (const OrganSnapshot& organ : snapshot.organs) {
     record(states_.at(organ.id), snapshot.stamp, shared(toMessage(organ, snapshot, parameters_.world_frame)));

@@ -65,6 +65,13 @@ Answer SimulationLoop::step(std::uint32_t steps) {
   return ask([this, steps](const Reply& reply) { stepNow(reply, steps); });
 }
 
+Answer SimulationLoop::apply(const simulation::Command& command) {
+  return ask([this, command](const Reply& reply) {
+    const std::string refusal = applyNow(command).refusal;
+    reply->set_value(answer(refusal.empty(), refusal.empty() ? "applied" : refusal));
+  });
+}
+
 Answer SimulationLoop::atBoundary(const std::function<std::optional<std::string>(const Snapshot&)>& action) {
   return ask([this, action](const Reply& reply) {
     const std::optional<std::string> failure = action(*snapshot_);
@@ -173,19 +180,20 @@ void SimulationLoop::stepNow(const Reply& reply, std::uint32_t steps) {
   step_request_ = StepRequest{steps, 0, reply};
 }
 
-void SimulationLoop::applyNow(const simulation::StimulusCommand& stimulus) {
-  simulation_.apply(stimulus);
+simulation::AppliedCommand SimulationLoop::applyNow(const simulation::Command& command) {
+  simulation::AppliedCommand applied = simulation_.apply(command);
   showApplied();
   setSnapshot(snapshot_->stamp);
   listener_.onStimuli(*snapshot_);
   showStatus();
+  return applied;
 }
 
 void SimulationLoop::advance() {
   const bool is_paced = !step_request_;
   if (is_paced) pacer_.stepBegins(std::chrono::steady_clock::now());
   const simulation::StepReport report = stepGuarded(simulation_);
-  const bool stimuli_changed = showApplied();  // taken while the state before this step was current
+  const bool has_applied = showApplied();  // taken while the state before this step was current
   if (!report.ok) {
     setSnapshot(snapshot_->stamp);  // the last good state, with the report of what went wrong
     setMode(Mode::fault, report.message);
@@ -194,7 +202,7 @@ void SimulationLoop::advance() {
   }
   setSnapshot(clock_.tick());
   listener_.onState(snapshot_);
-  if (stimuli_changed) listener_.onStimuli(*snapshot_);
+  if (has_applied) listener_.onStimuli(*snapshot_);
   if (is_paced) pacer_.stepEnded(std::chrono::steady_clock::now());
   if (simulation_.finished() && mode_ != Mode::finished) {
     setMode(Mode::finished, "the duration of the scenario is reached");
@@ -238,10 +246,12 @@ void SimulationLoop::setSnapshot(const ros::Time& stamp) {
 }
 
 bool SimulationLoop::showApplied() {
-  const std::vector<simulation::AppliedStimulus> applied = simulation_.takeApplied();
-  for (const simulation::AppliedStimulus& stimulus : applied) {
-    counters_.count(stimulus.refusal.empty() ? StimulusFate::accepted : StimulusFate::not_applicable);
-    listener_.onStimulus(stimulus, *snapshot_);
+  const std::vector<simulation::AppliedCommand> applied = simulation_.takeApplied();
+  for (const simulation::AppliedCommand& command : applied) {
+    if (std::holds_alternative<simulation::StimulusCommand>(command.command)) {
+      counters_.count(command.refusal.empty() ? StimulusFate::accepted : StimulusFate::not_applicable);
+    }
+    listener_.onCommand(command, *snapshot_);
   }
   return !applied.empty();
 }

@@ -8,6 +8,7 @@ SnapshotPtr takeSnapshot(const simulation::Simulation& simulation, const ros::Ti
   snapshot->step_index = simulation.stepIndex();
   snapshot->epoch = epoch;
   snapshot->growth_time = simulation.time();
+  snapshot->gravity = simulation.gravity();
   snapshot->environment = simulation.environment();
   snapshot->organs.reserve(simulation.organs().size());
   for (const simulation::Organ& organ : simulation.organs()) {

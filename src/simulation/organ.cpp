@@ -16,6 +16,7 @@ Organ::Organ(const OrganScenario& organ, const Scenario& scenario)
     : scenario_(organ),
       stepping_(scenario.stepping),
       method_(scenario.relaxation),
+      has_weight_(scenario.weight),
       growth_per_second_(scenario.growth_per_second),
       relaxation_settings_(scenario.relaxation_settings),
       equilibrium_(scenario.relaxation_settings),
@@ -25,7 +26,7 @@ Organ::Organ(const OrganScenario& organ, const Scenario& scenario)
     throw std::invalid_argument("growth_per_second must be positive");
   }
   loads_ = organ.loads;
-  if (scenario.weight) loads_.gravity = scenario.gravity;
+  if (has_weight_) loads_.gravity = scenario.gravity;
   for (const auto& fault :
        {mechanics::findFault(loads_.surroundings), growth::findFault(organ.senses), growth::findFault(organ.bending)}) {
     if (fault) throw std::invalid_argument("organ '" + organ.id + "': " + *fault);
@@ -37,10 +38,7 @@ Organ::Organ(const OrganScenario& organ, const Scenario& scenario)
     rod_.bends[j].curvature = rod_.bends[j].rest_curvature = organ.rest_curvature;
   }
   report_.divisions = rod::divideLongElements(rod_, organ.longest_element, organ.division);
-  report_.fault = relax();
-  if (!report_.ok() && method_ == RelaxationMethod::statics) {
-    report_.fault = take(equilibrium_.relaxInLoadSteps(rod_, loads_));
-  }
+  report_.fault = relaxFromAnywhere();
   if (!report_.ok()) {
     throw std::invalid_argument("organ '" + organ.id + "' has no equilibrium to start from: " + describe(report_));
   }
@@ -50,19 +48,17 @@ Organ::Organ(const OrganScenario& organ, const Scenario& scenario)
 
 const OrganReport& Organ::advance(double dt, const growth::Environment& environment) {
   const double smallest = stepping_.limits.smallest_part * dt;
-  before_step_ = rod_;
-  report_before_step_ = report_;
-  amplification_before_step_ = amplification_;
-  perception_.forgetTheOld();
-  perception_.setMark(perception_before_step_);
-  report_ = {};
+  if (!has_begun_) begin();
+  has_begun_ = false;
   const auto giveUp = [this](OrganFault fault) -> const OrganReport& {
     rod_ = before_step_;
     perception_.takeBack(perception_before_step_);
     amplification_ = amplification_before_step_;
+    weight_changed_ = weight_changed_before_step_;
     report_.fault = fault;
     return report_;
   };
+  if (!report_.ok()) return giveUp(report_.fault);
 
   double remaining = dt;
   double longest_allowed = dt;
@@ -75,8 +71,7 @@ const OrganReport& Organ::advance(double dt, const growth::Environment& environm
     const double parts = std::max(1.0, std::ceil(remaining / limit * (1.0 - 1e-12)));
     const double part = remaining / parts;
 
-    // The first part starts where the step does, and one part is the rule.
-    if (report_.substeps > 0) before_part_ = rod_;
+    if (!startsWithStep()) before_part_ = rod_;
     const OrganFault fault = growAndRelax(part, environment, time);
     if (fault == OrganFault::too_many_elements) return giveUp(fault);
     if (fault == OrganFault::none) {
@@ -100,6 +95,29 @@ void Organ::undo() {
   perception_.takeBack(perception_before_step_);
   report_ = report_before_step_;
   amplification_ = amplification_before_step_;
+  weight_changed_ = weight_changed_before_step_;
+  has_begun_ = false;
+}
+
+void Organ::setGravity(const rod::Vector3& gravity) {
+  if (!has_weight_) return;
+  loads_.gravity = gravity;
+  // An organ in continuous motion takes the change as it comes.
+  weight_changed_ = method_ != RelaxationMethod::continuous;
+}
+
+void Organ::begin() {
+  before_step_ = rod_;
+  report_before_step_ = report_;
+  amplification_before_step_ = amplification_;
+  weight_changed_before_step_ = weight_changed_;
+  perception_.forgetTheOld();
+  perception_.setMark(perception_before_step_);
+  has_begun_ = true;
+  report_ = {};
+  if (!weight_changed_) return;
+  report_.fault = relaxFromAnywhere();
+  weight_changed_ = false;
 }
 
 /// Expects rates_, factors_ and drive_ at the start of the part, as longestPart() leaves them.
@@ -171,6 +189,13 @@ OrganFault Organ::relax() {
       return take(mechanics::assumeRestShape(rod_, relaxation_settings_));
   }
   return OrganFault::none;
+}
+
+/// For loads that the organ does not carry yet.
+OrganFault Organ::relaxFromAnywhere() {
+  const OrganFault fault = relax();
+  if (fault == OrganFault::none || method_ != RelaxationMethod::statics) return fault;
+  return take(equilibrium_.relaxInLoadSteps(rod_, loads_));
 }
 
 /// The predicted equilibrium is only sensed: it need not be stable, nor more exact than the step.

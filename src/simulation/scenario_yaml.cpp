@@ -4,12 +4,11 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
-#include <initializer_list>
-#include <map>
 #include <sstream>
 #include <utility>
 
 #include "loads_yaml.h"
+#include "protocol_yaml.h"
 #include "senses_yaml.h"
 #include "sensing_yaml.h"
 #include "sensory_growth/simulation/yaml_reader.h"
@@ -24,23 +23,6 @@ constexpr auto kRequired = Presence::required;
 constexpr auto kOptional = Presence::optional;
 
 constexpr double kPi = 3.14159265358979323846;
-
-/// Where each id was first given, to refuse a second one.
-using IdLines = std::map<std::string, int>;
-
-std::string readId(YamlReader& in, IdLines& lines) {
-  const std::string id = in.identifier("id");
-  const auto [first, is_new] = lines.emplace(id, in.line("id"));
-  if (!is_new && !id.empty()) {
-    in.addProblem("id", "'" + id + "' is already used on line " + std::to_string(first->second) + "; ids are unique");
-  }
-  return id;
-}
-
-Vector3 readGravity(YamlReader& in) {
-  const Vector3 direction = in.direction("direction");
-  return in.quantity("acceleration", dimension::acceleration, atLeast(0)) * direction;
-}
 
 void readLimits(YamlReader& in, StepLimits& limits) {
   const Range limit = above(0).orInfinity();
@@ -113,9 +95,18 @@ void readRelaxation(YamlReader& in, Scenario& scenario) {
   }
 }
 
-OrganScenario readOrgan(YamlReader& in, RelaxationMethod relaxation, IdLines& ids) {
+/// An organ that the others sense.
+OrganSource readSource(YamlReader& in) {
+  OrganSource source;
+  source.label = in.number("label", atLeast(0).upTo(1));
+  source.strength = in.number("strength", anyNumber);
+  return source;
+}
+
+OrganScenario readOrgan(YamlReader& in, RelaxationMethod relaxation, YamlReader::Lines& ids) {
   OrganScenario organ;
-  organ.id = readId(in, ids);
+  organ.id = in.uniqueIdentifier("id", ids);
+  if (organ.id == kAllOrgans) in.addProblem("id", "'all' means every organ in commands; give another id");
   in.section("base", kRequired, [&](YamlReader& base) { readBase(base, relaxation, organ); });
   organ.length = in.quantity("length", dimension::length, above(0));
   organ.elements = static_cast<std::size_t>(in.count("elements", 1, kMostElements));
@@ -126,81 +117,10 @@ OrganScenario readOrgan(YamlReader& in, RelaxationMethod relaxation, IdLines& id
   readSenses(in, organ);
   organ.sensing = readSensing(in);
   in.section("division", kRequired, [&](YamlReader& division) { readDivision(division, relaxation, organ); });
+  in.section("source", kOptional, [&](YamlReader& source) { organ.source = readSource(source); });
   readLoads(in, relaxation, organ);
   organ.rest_curvature = in.vector("rest_curvature", dimension::curvature, organ.rest_curvature);
   return organ;
-}
-
-StimulusCommand readStimulus(YamlReader& in, StimulusKind kind, StimulusOperation operation, const std::string& id) {
-  StimulusCommand command;
-  command.kind = kind;
-  command.operation = operation;
-  command.id = id;
-  if (operation == StimulusOperation::remove) return command;
-  const bool is_direction = kind == StimulusKind::light_direction;
-  command.vector = is_direction ? in.direction("towards") : in.vector("position", dimension::length);
-  command.strength = in.number("strength", anyNumber);
-  return command;
-}
-
-void readStimuli(YamlReader& in, std::vector<TimedStimulus>& protocol) {
-  const auto readList = [&](const std::string& key, StimulusKind kind) {
-    IdLines ids;
-    in.list(key, kOptional, [&](YamlReader& stimulus) {
-      const std::string id = readId(stimulus, ids);
-      protocol.push_back({0.0, readStimulus(stimulus, kind, StimulusOperation::add, id)});
-    });
-  };
-  readList("point_sources", StimulusKind::point_source);
-  readList("light_directions", StimulusKind::light_direction);
-}
-
-template <typename Value>
-Options<Value> named(std::initializer_list<Value> values) {
-  Options<Value> options;
-  for (const Value value : values) options.emplace_back(name(value), value);
-  return options;
-}
-
-TimedStimulus readProtocolEntry(YamlReader& in) {
-  TimedStimulus entry;
-  entry.time = in.quantity("at", dimension::time, atLeast(0));
-  const auto operation =
-      in.exactlyOneOf(named({StimulusOperation::add, StimulusOperation::change, StimulusOperation::remove}));
-  if (!operation) return entry;
-  in.section(name(*operation), kRequired, [&](YamlReader& stimulus) {
-    const auto kind = stimulus.exactlyOneOf(named({StimulusKind::point_source, StimulusKind::light_direction}));
-    if (!kind) return;
-    stimulus.section(name(*kind), kRequired, [&](YamlReader& fields) {
-      entry.command = readStimulus(fields, *kind, *operation, fields.identifier("id"));
-    });
-  });
-  return entry;
-}
-
-/// `known` holds the stimuli of the world that the protocol finds, to refuse what would change nothing in it; null if
-/// that world is not known.
-void readProtocol(YamlReader& in, std::vector<TimedStimulus>& protocol, growth::Environment* known) {
-  in.section("stimuli", kOptional, [&](YamlReader& stimuli) { readStimuli(stimuli, protocol); });
-  if (known) {
-    for (const TimedStimulus& stimulus : protocol) apply(stimulus.command, *known);
-  }
-  double latest = 0.0;
-  int latest_line = 0;
-  in.list("protocol", kOptional, [&](YamlReader& entry) {
-    const TimedStimulus stimulus = readProtocolEntry(entry);
-    if (stimulus.time < latest) {
-      entry.addProblem("at", "'" + entry.text("at") + "' is earlier than the entry before it, on line " +
-                                 std::to_string(latest_line) + "; entries are in order of time");
-    }
-    if (known && entry.faultless()) {
-      const auto refusal = apply(stimulus.command, *known);
-      if (refusal) entry.addProblem(name(stimulus.command.operation), *refusal);
-    }
-    latest = stimulus.time;
-    latest_line = entry.line("at");
-    protocol.push_back(stimulus);
-  });
 }
 
 Scenario readScenario(YamlReader& in) {
@@ -215,16 +135,16 @@ Scenario readScenario(YamlReader& in) {
   if (scenario.relaxation == RelaxationMethod::kinematics && scenario.weight) {
     in.addProblem("weight", "'true' has no effect with kinematic relaxation; give false");
   }
-  IdLines ids;
+  YamlReader::Lines ids;
   in.list("organs", kRequired,
           [&](YamlReader& organ) { scenario.organs.push_back(readOrgan(organ, scenario.relaxation, ids)); });
-  growth::Environment environment;
-  readProtocol(in, scenario.protocol, &environment);
+  KnownWorld world{{}, scenario.organs};
+  readProtocol(in, scenario.protocol, &world);
   return scenario;
 }
 
-std::vector<TimedStimulus> readProtocolAlone(YamlReader& in) {
-  std::vector<TimedStimulus> protocol;
+std::vector<TimedCommand> readProtocolAlone(YamlReader& in) {
+  std::vector<TimedCommand> protocol;
   in.identifier("name");
   in.text("description", "");
   if (!in.has("stimuli") && !in.has("protocol")) in.addProblem("protocol", "is missing; give a sequence of mappings");
@@ -258,9 +178,9 @@ Scenario loadScenario(const std::string& file) { return parseScenario(readText(f
 
 Scenario parseScenario(const std::string& yaml, const std::string& source) { return parse(yaml, source, readScenario); }
 
-std::vector<TimedStimulus> loadProtocol(const std::string& file) { return parseProtocol(readText(file), file); }
+std::vector<TimedCommand> loadProtocol(const std::string& file) { return parseProtocol(readText(file), file); }
 
-std::vector<TimedStimulus> parseProtocol(const std::string& yaml, const std::string& source) {
+std::vector<TimedCommand> parseProtocol(const std::string& yaml, const std::string& source) {
   return parse(yaml, source, readProtocolAlone);
 }
 

@@ -20,7 +20,7 @@ std::vector<Organ> buildOrgans(const Scenario& scenario) {
 Simulation::Simulation(Scenario scenario, int threads) : scenario_(std::move(scenario)), workers_(threads) {
   const double step = scenario_.stepping.step;
   if (!(step > 0.0) || !std::isfinite(step)) throw std::invalid_argument("stepping.step must be positive and finite");
-  const auto earlier = [](const TimedStimulus& a, const TimedStimulus& b) { return a.time < b.time; };
+  const auto earlier = [](const TimedCommand& a, const TimedCommand& b) { return a.time < b.time; };
   if (!std::is_sorted(scenario_.protocol.begin(), scenario_.protocol.end(), earlier)) {
     throw std::invalid_argument("the protocol must be in order of time");
   }
@@ -29,8 +29,11 @@ Simulation::Simulation(Scenario scenario, int threads) : scenario_(std::move(sce
 
 void Simulation::reset() {
   organs_ = buildOrgans(scenario_);
+  sources_ = OrganSources(organs_);
   environment_ = {};
-  environment_.down = scenario_.gravity.stableNormalized();
+  gravity_ = scenario_.gravity;
+  environment_.down = gravity_.stableNormalized();
+  gravity_changed_ = false;
   step_index_ = 0;
   next_in_protocol_ = 0;
   applied_.clear();
@@ -38,9 +41,14 @@ void Simulation::reset() {
 }
 
 StepReport Simulation::step() {
+  const double dt = scenario_.stepping.step;
   try {
+    if (gravity_changed_) {  // the organs sense each other where it puts them
+      workers_.forEach(organs_.size(), [this](std::size_t i) { organs_[i].begin(); });
+      sources_.locate(organs_);
+    }
     workers_.forEach(organs_.size(),
-                     [this](std::size_t i) { organs_[i].advance(scenario_.stepping.step, environment_); });
+                     [this, dt](std::size_t i) { organs_[i].advance(dt, sources_.seenBy(i, environment_)); });
   } catch (...) {
     for (Organ& organ : organs_) organ.undo();
     throw;
@@ -55,21 +63,47 @@ StepReport Simulation::step() {
     return {false, "organ '" + failed->scenario().id + "' failed in step " + std::to_string(step_index_ + 1) + ": " +
                        describe(failed->report())};
   }
+  gravity_changed_ = false;
+  sources_.follow(organs_, dt);
   ++step_index_;
   environment_.time = time();
   applyDue();
   return {};
 }
 
-AppliedStimulus Simulation::apply(const StimulusCommand& command) {
-  const std::optional<std::string> refusal = simulation::apply(command, environment_);
+AppliedCommand Simulation::apply(const Command& command) {
+  const auto refusal = std::visit([this](const auto& typed) { return take(typed); }, command);
   applied_.push_back({step_index_, command, refusal.value_or("")});
   return applied_.back();
 }
 
+std::optional<std::string> Simulation::take(const StimulusCommand& command) {
+  return simulation::apply(command, environment_);
+}
+
+std::optional<std::string> Simulation::take(const ParameterCommand& command) {
+  std::vector<OrganScenario> now;
+  for (const Organ& organ : organs_) now.push_back(organ.scenario());
+  if (auto refusal = simulation::apply(command, now)) return refusal;
+  for (Organ& organ : organs_) {
+    if (addresses(command, organ.scenario())) organ.set(*findParameter(command.name), command.value);
+  }
+  sources_.locate(organs_);
+  return std::nullopt;
+}
+
+std::optional<std::string> Simulation::take(const GravityCommand& command) {
+  if (auto fault = findFault(command)) return fault;
+  gravity_ = command.acceleration;
+  gravity_changed_ = true;
+  environment_.down = gravity_.stableNormalized();
+  for (Organ& organ : organs_) organ.setGravity(gravity_);
+  return std::nullopt;
+}
+
 bool Simulation::finished() const { return scenario_.duration > 0.0 && time() >= scenario_.duration * (1.0 - 1e-12); }
 
-std::vector<AppliedStimulus> Simulation::takeApplied() { return std::exchange(applied_, {}); }
+std::vector<AppliedCommand> Simulation::takeApplied() { return std::exchange(applied_, {}); }
 
 void Simulation::applyDue() {
   // A command takes effect at the first step boundary that is not earlier than its time.

@@ -74,26 +74,6 @@ std::string orInfinity(const Range& range) { return range.infinity ? " or '" + s
 
 }  // namespace
 
-bool Range::contains(double value) const {
-  if (std::isinf(value)) return infinity && value > 0.0;
-  return (includes_low ? value >= low : value > low) && (includes_high ? value <= high : value < high);
-}
-
-std::string Range::describe(const char* unit) const {
-  std::vector<std::string> bounds;
-  const auto add = [&](const char* sign, double bound) {
-    std::ostringstream text;
-    text.precision(15);
-    text << sign << ' ' << bound << (*unit ? " " : "") << unit;
-    bounds.push_back(text.str());
-  };
-  if (std::isfinite(low)) add(includes_low ? ">=" : ">", low);
-  if (std::isfinite(high)) add(includes_high ? "<=" : "<", high);
-  if (bounds.empty()) return "must be finite";
-  return "must be " + bounds[0] + (bounds.size() > 1 ? " and " + bounds[1] : "") +
-         (infinity ? std::string(" or ") + infinity : "");
-}
-
 YamlReader::YamlReader(const YAML::Node& mapping, std::string path, std::vector<Problem>& problems)
     : path_(std::move(path)), line_(lineOf(mapping, 0)), problems_(problems) {
   for (const auto& item : mapping) {
@@ -119,6 +99,15 @@ std::string YamlReader::identifier(const std::string& key) {
   if (!text) return "";
   if (!isIdentifier(*text)) addProblem(key, quote(*text) + " is not a valid name; " + request);
   return *text;
+}
+
+std::string YamlReader::uniqueIdentifier(const std::string& key, Lines& given) {
+  const std::string word = identifier(key);
+  const auto [first, is_new] = given.emplace(word, line(key));
+  if (!is_new && !word.empty()) {
+    addProblem(key, "'" + word + "' is already used on line " + std::to_string(first->second) + "; ids are unique");
+  }
+  return word;
 }
 
 bool YamlReader::flag(const std::string& key, std::optional<bool> fallback) {

@@ -223,7 +223,8 @@ Vector3 grownTip(const Law& law, int steps) {
   scenario.relaxation_settings.tolerance = 1e-12;
   scenario.weight = true;
   scenario.gravity = -Vector3::UnitZ();
-  scenario.protocol = {{0.0, {StimulusKind::point_source, StimulusOperation::add, "lamp", {1.0, 2.0, 1.0}, 1.0}}};
+  scenario.protocol = {
+      {0.0, StimulusCommand{StimulusKind::point_source, StimulusOperation::add, "lamp", {1.0, 2.0, 1.0}, 1.0}}};
   OrganScenario& organ = scenario.organs.front();
   organ.section = support::section(kRadius, 1.0, 1.5);
   organ.rest_curvature = {0.3, 0.2, 1.5};

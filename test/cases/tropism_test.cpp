@@ -26,7 +26,7 @@ using support::tipAngle;
 using support::tipDirection;
 
 TimedStimulus light(const std::string& id, const Vector3& towards, double strength) {
-  return {0.0, {StimulusKind::light_direction, StimulusOperation::add, id, towards, strength}};
+  return {0.0, StimulusCommand{StimulusKind::light_direction, StimulusOperation::add, id, towards, strength}};
 }
 
 // --- C1: righting with proprioception
@@ -162,7 +162,8 @@ TEST(KinematicOrgan, TurnsIntoParallelLight) {
 TEST(KinematicOrgan, CirclesRoundALamp) {
   Scenario scenario = porat();
   scenario.organs.front().senses.point_source = 1.0;
-  scenario.protocol = {{0.0, {StimulusKind::point_source, StimulusOperation::add, "lamp", {1.0, -1.0, 1.0}, 1.0}}};
+  scenario.protocol = {
+      {0.0, StimulusCommand{StimulusKind::point_source, StimulusOperation::add, "lamp", {1.0, -1.0, 1.0}, 1.0}}};
   expectTips(scenario, {{1.03842, -1.03842, 1.11393}, {1.25863, -1.25863, 0.44381}, {0.94995, -0.94995, 1.61932}});
 }
 

@@ -98,8 +98,8 @@ TEST(Growth, FactorsMultiplyTheRateInEveryStage) {
   Elongation elongation;
   std::vector<double> rates;
   elementRates(UniformProfile{1.0}, factors, rod, rates);
-  std::vector<rod::Vector3> no_drive(4, rod::Vector3::Zero());
-  elongate(rod, elongation.strain(UniformProfile{1.0}, factors, rod, rates, 0.7), TwistTransport::angle, no_drive);
+  std::vector<rod::Vector3> drive(4, rod::Vector3::Zero());
+  elongate(rod, elongation.strain(UniformProfile{1.0}, factors, rod, rates, 0.7), TwistTransport::angle, drive);
   for (std::size_t e = 0; e < 4; ++e) {
     EXPECT_NEAR(rod.elements[e].rest_length, 0.25 * std::exp(0.7 * factors[e]), 1e-14) << e;
   }

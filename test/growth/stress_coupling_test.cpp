@@ -76,8 +76,7 @@ TEST(StressCoupling, LengthsAddUpToTheIntegralOfTheVelocity) {
   constexpr double kStep = 0.05;
   for (int i = 0; i < 40; ++i) {
     elementRates(profile, factors, rod, rates);
-    std::vector<rod::Vector3> no_drive(rod.size(), rod::Vector3::Zero());
-    elongate(rod, elongation.strain(profile, factors, rod, rates, kStep), TwistTransport::angle, no_drive);
+    elongate(rod, elongation.strain(profile, factors, rod, rates, kStep), TwistTransport::angle, drive);
     constexpr int kFine = 20;
     for (int k = 0; k < kFine; ++k) {  // the same equation for the length alone, by RK4 with finer steps
       const double h = kStep / kFine;

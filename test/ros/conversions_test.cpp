@@ -142,6 +142,7 @@ TEST(StimuliMessage, ListsWhatIsInForce) {
   auto snapshot = testing::snapshotOf("stem");
   snapshot->environment.point_sources.push_back({"lamp", {1.0, 0.0, 0.0}, 2.0});
   snapshot->environment.light_directions.push_back({"sun", {0.0, 0.0, 1.0}, 0.5});
+  snapshot->gravity = {0.0, 0.0, -9.81};
   const Stimuli message = toStimuli(*snapshot, "world");
   ASSERT_THAT(message.point_sources, SizeIs(1));
   ASSERT_THAT(message.light_directions, SizeIs(1));
@@ -149,6 +150,39 @@ TEST(StimuliMessage, ListsWhatIsInForce) {
   EXPECT_EQ(message.point_sources[0].position.x, 1.0);
   EXPECT_EQ(message.point_sources[0].strength, 2.0);
   EXPECT_EQ(message.light_directions[0].towards.z, 1.0);
+  EXPECT_EQ(message.gravity.z, -9.81);
+}
+
+TEST(AppliedCommandMessage, HoldsEveryKindOfCommand) {
+  const auto snapshot = testing::snapshotOf("stem");
+  const simulation::StimulusCommand lamp{simulation::StimulusKind::point_source, simulation::StimulusOperation::change,
+                                         "lamp", rod::Vector3(1.0, 2.0, 3.0), 4.0};
+  const AppliedCommand changed = toMessage(simulation::AppliedCommand{7, lamp, ""}, *snapshot, "world");
+  EXPECT_EQ(changed.step_index, 7u);
+  EXPECT_EQ(changed.kind, AppliedCommand::POINT_SOURCE);
+  EXPECT_EQ(changed.operation, AppliedCommand::CHANGE);
+  EXPECT_EQ(changed.id, "lamp");
+  EXPECT_EQ(changed.vector.z, 3.0);
+  EXPECT_EQ(changed.strength, 4.0);
+  EXPECT_TRUE(changed.accepted);
+
+  SetParameter::Request request;
+  request.organ = "all";
+  request.name = "growth.rate";
+  request.value = 0.5;
+  const AppliedCommand set = toMessage(simulation::AppliedCommand{8, toCommand(request), "why"}, *snapshot, "world");
+  EXPECT_EQ(set.kind, AppliedCommand::PARAMETER);
+  EXPECT_EQ(set.id, "all");
+  EXPECT_EQ(set.parameter, "growth.rate");
+  EXPECT_EQ(set.value, 0.5);
+  EXPECT_FALSE(set.accepted);
+  EXPECT_EQ(set.refusal, "why");
+
+  SetGravity::Request turn;
+  turn.acceleration.y = -1.5;
+  const AppliedCommand turned = toMessage(simulation::AppliedCommand{9, toCommand(turn), ""}, *snapshot, "world");
+  EXPECT_EQ(turned.kind, AppliedCommand::GRAVITY);
+  EXPECT_EQ(turned.vector.y, -1.5);
 }
 
 }  // namespace

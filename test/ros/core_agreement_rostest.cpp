@@ -7,13 +7,6 @@
 namespace sensory_growth::node::testing {
 namespace {
 
-simulation::StimulusCommand commandOf(const AppliedStimulus& applied) {
-  return {applied.kind == AppliedStimulus::POINT_SOURCE ? simulation::StimulusKind::point_source
-                                                        : simulation::StimulusKind::light_direction,
-          simulation::StimulusOperation::add, applied.id,
-          rod::Vector3(applied.vector.x, applied.vector.y, applied.vector.z), applied.strength};
-}
-
 TEST(CoreAgreement, StatesAreThoseOfTheCoreAlone) {
   NodeUnderTest node;
   ros::Publisher lamps = node.handle().advertise<PointSource>("point_source", 10);
@@ -29,15 +22,24 @@ TEST(CoreAgreement, StatesAreThoseOfTheCoreAlone) {
   };
 
   follow(0, 10);
-  const AppliedStimulus sun = node.send(lights, light(LightDirection::ADD, "sun", {3.0, 1.0, 2.0}, 0.7));
+  const AppliedCommand sun = node.send(lights, light(LightDirection::ADD, "sun", {3.0, 1.0, 2.0}, 0.7));
   EXPECT_EQ(sun.step_index, 10u);
   alone.apply(commandOf(sun));
   follow(10, 40);
-  const AppliedStimulus lit = node.send(lamps, lamp(PointSource::ADD, "lamp", {-0.1, 0.05, 0.1}, 1.3));
+  const AppliedCommand lit = node.send(lamps, lamp(PointSource::ADD, "lamp", {-0.1, 0.05, 0.1}, 1.3));
   EXPECT_EQ(lit.step_index, 40u);
   EXPECT_EQ(lit.vector.x, -0.1);
   alone.apply(commandOf(lit));
-  follow(40, 70);
+  follow(40, 50);
+  const SetParameter::Response set = node.setParameter("shoot", "sensitivities.gravity", -0.4);
+  EXPECT_TRUE(set.success) << set.message;
+  EXPECT_EQ(set.step_index, 50u);
+  const SetGravity::Response turned = node.setGravity({9.81, 0.0, 0.0});
+  EXPECT_TRUE(turned.success) << turned.message;
+  alone.apply(commandOf(node.applied(2)));
+  alone.apply(commandOf(node.applied(3)));
+  EXPECT_EQ(alone.gravity(), rod::Vector3(9.81, 0.0, 0.0));
+  follow(50, 70);
 
   ASSERT_TRUE(node.command("reset").success);
 }

@@ -42,14 +42,14 @@ TEST(Frames, PositionsMoveAndTurnDirectionsOnlyTurn) {
 
   PointSource on_bench = lamp(PointSource::ADD, "lamp", {0.5, 0.0, 0.2});
   on_bench.header.frame_id = "bench";
-  const AppliedStimulus moved = node.send(lamps, on_bench);
+  const AppliedCommand moved = node.send(lamps, on_bench);
   EXPECT_NEAR(moved.vector.x, 1.0, 1e-12);
   EXPECT_NEAR(moved.vector.y, 0.5, 1e-12);
   EXPECT_NEAR(moved.vector.z, 0.2, 1e-12);
 
   LightDirection over_bench = light(LightDirection::ADD, "light", {2.0, 0.0, 0.0});
   over_bench.header.frame_id = "bench";
-  const AppliedStimulus turned = node.send(lights, over_bench);
+  const AppliedCommand turned = node.send(lights, over_bench);
   EXPECT_NEAR(turned.vector.x, 0.0, 1e-12);
   EXPECT_NEAR(turned.vector.y, 2.0, 1e-12);
 }
@@ -59,7 +59,7 @@ TEST(Frames, AStimulusOfAFrameOfTheOrganWorksWhilePaused) {
   ros::Publisher lamps = node.handle().advertise<PointSource>("point_source", 10);
   PointSource above_tip = lamp(PointSource::ADD, "above", {0.0, 0.0, 0.01});
   above_tip.header.frame_id = "shoot/tip";
-  const AppliedStimulus applied = node.send(lamps, above_tip);
+  const AppliedCommand applied = node.send(lamps, above_tip);
   EXPECT_NEAR(applied.vector.z, 0.04, 1e-6);  // the organ is 30 mm long, less what its weight compresses
 
   // Stamped later than anything on tf, as by a node on wall time: what stood there last still does.
@@ -76,7 +76,7 @@ TEST(Frames, AnUnknownFrameIsRefusedWithoutHoldingUpOthers) {
   PointSource lost = lamp(PointSource::ADD, "lost", {0.1, 0.0, 0.1});
   lost.header.frame_id = "nowhere";
   node.publish(lamps, lost);
-  const AppliedStimulus other = node.send(lamps, lamp(PointSource::ADD, "other", {0.1, 0.0, 0.1}));
+  const AppliedCommand other = node.send(lamps, lamp(PointSource::ADD, "other", {0.1, 0.0, 0.1}));
   EXPECT_EQ(other.id, "other");
   const Status status = node.waitForStatus("a refusal", [&](const Status& s) { return s.stimuli_refused > refused; });
   EXPECT_EQ(status.stimuli_refused, refused + 1);
@@ -94,15 +94,15 @@ TEST(Frames, ClickedPointPlacesALampAndSunSetsALight) {
   click.header.frame_id = "world";
   for (const double x : {0.1, -0.2}) {
     click.point.x = x;
-    const AppliedStimulus clicked = node.send(clicks, click);
-    EXPECT_EQ(clicked.kind, AppliedStimulus::POINT_SOURCE);
+    const AppliedCommand clicked = node.send(clicks, click);
+    EXPECT_EQ(clicked.kind, AppliedCommand::POINT_SOURCE);
     EXPECT_EQ(clicked.id, "clicked");
     EXPECT_EQ(clicked.vector.x, x);
   }
   geometry_msgs::Vector3Stamped sun;
   sun.vector.y = 4.0;
-  const AppliedStimulus shining = node.send(suns, sun);
-  EXPECT_EQ(shining.kind, AppliedStimulus::LIGHT_DIRECTION);
+  const AppliedCommand shining = node.send(suns, sun);
+  EXPECT_EQ(shining.kind, AppliedCommand::LIGHT_DIRECTION);
   EXPECT_EQ(shining.id, "sun");
 
   const Stimuli stimuli = node.waitForStimuli("the sun", [](const Stimuli& s) {

@@ -15,11 +15,13 @@
 #include <utility>
 #include <vector>
 
-#include "sensory_growth/AppliedStimulus.h"
+#include "sensory_growth/AppliedCommand.h"
 #include "sensory_growth/Command.h"
 #include "sensory_growth/LightDirection.h"
 #include "sensory_growth/OrganState.h"
 #include "sensory_growth/PointSource.h"
+#include "sensory_growth/SetGravity.h"
+#include "sensory_growth/SetParameter.h"
 #include "sensory_growth/StartRecording.h"
 #include "sensory_growth/Status.h"
 #include "sensory_growth/Step.h"
@@ -48,8 +50,8 @@ class NodeUnderTest {
     });
     subscribe<Status>("status", [this](const Status& status) { status_ = status; });
     subscribe<Stimuli>("stimuli", [this](const Stimuli& stimuli) { stimuli_ = stimuli; });
-    subscribe<AppliedStimulus>("applied_stimuli",
-                               [this](const AppliedStimulus& stimulus) { applied_.push_back(stimulus); });
+    subscribe<AppliedCommand>("applied_commands",
+                              [this](const AppliedCommand& command) { applied_.push_back(command); });
     for (const ros::Subscriber& subscriber : subscribers_) {
       waitFor("a publisher of " + subscriber.getTopic(), [&] { return subscriber.getNumPublishers() > 0; });
     }
@@ -74,6 +76,22 @@ class NodeUnderTest {
     Step::Request request;
     request.steps = steps;
     return call<Step>("step", request);
+  }
+
+  SetParameter::Response setParameter(const std::string& organ, const std::string& name, double value) {
+    SetParameter::Request request;
+    request.organ = organ;
+    request.name = name;
+    request.value = value;
+    return call<SetParameter>("set_parameter", request);
+  }
+
+  SetGravity::Response setGravity(const rod::Vector3& acceleration) {
+    SetGravity::Request request;
+    request.acceleration.x = acceleration.x();
+    request.acceleration.y = acceleration.y();
+    request.acceleration.z = acceleration.z();
+    return call<SetGravity>("set_gravity", request);
   }
 
   /// Takes steps, expects it to succeed, and returns the state after the last.
@@ -123,9 +141,9 @@ class NodeUnderTest {
   }
 
   /// The command number `index` (from 0) that was taken at a step boundary.
-  AppliedStimulus applied(std::size_t index) {
-    AppliedStimulus found;
-    wait("applied stimulus " + std::to_string(index), [&] {
+  AppliedCommand applied(std::size_t index) {
+    AppliedCommand found;
+    wait("applied command " + std::to_string(index), [&] {
       if (applied_.size() <= index) return false;
       found = applied_[index];
       return true;
@@ -140,7 +158,7 @@ class NodeUnderTest {
 
   /// Waits until `stimulus` is known to have been taken.
   template <typename Message>
-  AppliedStimulus send(ros::Publisher& publisher, const Message& stimulus) {
+  AppliedCommand send(ros::Publisher& publisher, const Message& stimulus) {
     const std::size_t before = appliedCount();
     publish(publisher, stimulus);
     return applied(before);
@@ -187,10 +205,28 @@ class NodeUnderTest {
   std::map<std::pair<std::uint32_t, std::uint64_t>, OrganState> states_;
   Status status_;
   Stimuli stimuli_;
-  std::vector<AppliedStimulus> applied_;
+  std::vector<AppliedCommand> applied_;
 
   std::vector<ros::Subscriber> subscribers_;  // last, so that callbacks end before what they touch
 };
+
+/// The command that was echoed; stimuli are added.
+inline simulation::Command commandOf(const AppliedCommand& applied) {
+  const rod::Vector3 vector(applied.vector.x, applied.vector.y, applied.vector.z);
+  const auto added = [&](simulation::StimulusKind kind) {
+    return simulation::StimulusCommand{kind, simulation::StimulusOperation::add, applied.id, vector, applied.strength};
+  };
+  switch (applied.kind) {
+    case AppliedCommand::POINT_SOURCE:
+      return added(simulation::StimulusKind::point_source);
+    case AppliedCommand::LIGHT_DIRECTION:
+      return added(simulation::StimulusKind::light_direction);
+    case AppliedCommand::PARAMETER:
+      return simulation::ParameterCommand{applied.id, applied.parameter, applied.value};
+    default:
+      return simulation::GravityCommand{vector};
+  }
+}
 
 /// Expects the positions of the message to be those of the first organ, bit for bit.
 inline void expectSame(const OrganState& state, const simulation::Simulation& alone) {

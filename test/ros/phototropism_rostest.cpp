@@ -21,14 +21,14 @@ TEST(Phototropism, TipFollowsALampAndRightsItselfWithoutOne) {
 
   EXPECT_NEAR(tipDirection(node.state(0)).z(), 1.0, 1e-12);
 
-  const AppliedStimulus added = node.send(topic, lamp(PointSource::ADD, "lamp", right));
+  const AppliedCommand added = node.send(topic, lamp(PointSource::ADD, "lamp", right));
   EXPECT_TRUE(added.accepted) << added.refusal;
   EXPECT_EQ(added.step_index, 0u);
   const OrganState lit = node.stepTo(80, 0);
   EXPECT_LT(missedBy(lit, right), 0.6);  // the balance of light and gravity keeps it from pointing at the lamp exactly
   EXPECT_GT(tipDirection(lit).x(), 0.5);
 
-  const AppliedStimulus moved = node.send(topic, lamp(PointSource::CHANGE, "lamp", left));
+  const AppliedCommand moved = node.send(topic, lamp(PointSource::CHANGE, "lamp", left));
   EXPECT_EQ(moved.step_index, 80u);
   const OrganState followed = node.stepTo(200, 80);
   EXPECT_LT(missedBy(followed, left), 0.6);

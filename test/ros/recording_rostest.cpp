@@ -29,6 +29,7 @@ TEST(Recording, HoldsEverythingThatIsNeededToRunTheSameAgain) {
 
   // Before recording starts: it must be in the bag all the same.
   node.send(lamps, lamp(PointSource::ADD, "early", {0.1, 0.0, 0.1}));
+  ASSERT_TRUE(node.setParameter("shoot", "sensitivities.light_direction", 0.6).success);
 
   StartRecording::Request start;
   start.file = "complete_" + std::to_string(getpid()) + ".bag";
@@ -73,15 +74,19 @@ TEST(Recording, HoldsEverythingThatIsNeededToRunTheSameAgain) {
   EXPECT_NE(parameters[0].data.find("growth_time_scale: 60\n"), std::string::npos);
   EXPECT_NE(parameters[0].data.find("version: "), std::string::npos);
 
-  const auto applied = readTopic<AppliedStimulus>(bag, "/sensory_growth/applied_stimuli");
-  ASSERT_EQ(applied.size(), 3u);
+  const auto applied = readTopic<AppliedCommand>(bag, "/sensory_growth/applied_commands");
+  ASSERT_EQ(applied.size(), 4u);
   EXPECT_EQ(applied[0].id, "early");
   EXPECT_EQ(applied[0].step_index, 0u);
-  EXPECT_EQ(applied[1].id, "late");
-  EXPECT_EQ(applied[1].step_index, 10u);
-  EXPECT_EQ(applied[1].strength, 2.0);
-  EXPECT_EQ(applied[2].id, "nobody");
-  EXPECT_FALSE(applied[2].accepted);
+  EXPECT_EQ(applied[1].kind, AppliedCommand::PARAMETER);
+  EXPECT_EQ(applied[1].id, "shoot");
+  EXPECT_EQ(applied[1].parameter, "sensitivities.light_direction");
+  EXPECT_EQ(applied[1].value, 0.6);
+  EXPECT_EQ(applied[2].id, "late");
+  EXPECT_EQ(applied[2].step_index, 10u);
+  EXPECT_EQ(applied[2].strength, 2.0);
+  EXPECT_EQ(applied[3].id, "nobody");
+  EXPECT_FALSE(applied[3].accepted);
   const auto stimuli = readTopic<Stimuli>(bag, "/sensory_growth/stimuli");
   ASSERT_FALSE(stimuli.empty());
   EXPECT_EQ(stimuli.front().point_sources.size(), 1u);  // in force when recording began
@@ -113,6 +118,8 @@ TEST(Recording, ReplaysToTheSameNumbers) {
   ASSERT_TRUE(node.call<StartRecording>("start_recording", start).success);
   node.stepTo(7, 0);
   node.send(lights, light(LightDirection::ADD, "sun", {1.0, 2.0, 0.5}, 0.9));
+  ASSERT_TRUE(node.setGravity({0.0, 5.0, -5.0}).success);
+  ASSERT_TRUE(node.setParameter("all", "growth.rate", 2e-5).success);
   node.stepTo(25, 7);
   const StopRecording::Response stopped = node.call<StopRecording>("stop_recording");
   ASSERT_TRUE(stopped.success) << stopped.message;
@@ -120,9 +127,9 @@ TEST(Recording, ReplaysToTheSameNumbers) {
   // From the bag alone.
   const rosbag::Bag bag(stopped.path);
   const auto scenario = readTopic<std_msgs::String>(bag, "/sensory_growth/scenario");
-  const auto applied = readTopic<AppliedStimulus>(bag, "/sensory_growth/applied_stimuli");
+  const auto applied = readTopic<AppliedCommand>(bag, "/sensory_growth/applied_commands");
   ASSERT_EQ(scenario.size(), 1u);
-  ASSERT_EQ(applied.size(), 1u);
+  ASSERT_EQ(applied.size(), 3u);
   simulation::Simulation replay(simulation::parseScenario(scenario[0].data, "bag"));
   const auto states = readTopic<OrganState>(bag, "/sensory_growth/organs/shoot/state");
   ASSERT_EQ(states.size(), 26u);
@@ -131,10 +138,8 @@ TEST(Recording, ReplaysToTheSameNumbers) {
       ASSERT_TRUE(replay.step().ok);
     }
     expectSame(state, replay);
-    if (state.step_index == applied[0].step_index) {
-      const auto& v = applied[0].vector;
-      replay.apply({simulation::StimulusKind::light_direction, simulation::StimulusOperation::add, applied[0].id,
-                    rod::Vector3(v.x, v.y, v.z), applied[0].strength});
+    for (const AppliedCommand& command : applied) {
+      if (command.step_index == state.step_index) replay.apply(commandOf(command));
     }
   }
   std::filesystem::remove(stopped.path);

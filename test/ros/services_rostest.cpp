@@ -4,6 +4,7 @@
 #include <rosgraph_msgs/Clock.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <future>
 
@@ -96,6 +97,36 @@ TEST_F(Services, FinishedAllowsStepsAndResetButNotResume) {
   EXPECT_EQ(node_.step(1).step_index, 241u);
   EXPECT_TRUE(node_.command("reset").success);
   EXPECT_TRUE(node_.command("resume").success);
+}
+
+TEST_F(Services, ParametersAndGravityChangeAtAStepBoundary) {
+  const Step::Response before = node_.step(3);
+  const SetParameter::Response set = node_.setParameter("shoot", "growth.rate", 0.0);
+  ASSERT_TRUE(set.success) << set.message;
+  EXPECT_EQ(set.step_index, 3u);
+  EXPECT_EQ(set.stamp, before.stamp);
+  const AppliedCommand applied = node_.applied(0);
+  EXPECT_EQ(applied.kind, AppliedCommand::PARAMETER);
+  EXPECT_EQ(applied.parameter, "growth.rate");
+  EXPECT_TRUE(applied.accepted);
+  EXPECT_EQ(applied.step_index, 3u);
+  node_.step(1);
+  EXPECT_EQ(node_.state(4).rest_length, node_.state(3).rest_length);
+
+  ASSERT_TRUE(node_.setGravity({0.0, 3.0, -4.0}).success);
+  EXPECT_EQ(node_.applied(1).kind, AppliedCommand::GRAVITY);
+  EXPECT_EQ(node_.applied(1).vector.y, 3.0);
+  node_.waitForStimuli("gravity", [](const Stimuli& s) { return s.gravity.y == 3.0 && s.gravity.z == -4.0; });
+}
+
+TEST_F(Services, ParametersAndGravityAreRefusedWithAReason) {
+  const SetParameter::Response structural = node_.setParameter("shoot", "elements", 5.0);
+  EXPECT_FALSE(structural.success);
+  EXPECT_TRUE(contains(structural.message, "'elements' is structural")) << structural.message;
+  EXPECT_TRUE(contains(node_.setParameter("root", "growth.rate", 0.0).message, "no organ 'root'"));
+  EXPECT_TRUE(contains(node_.setParameter("shoot", "growth.rate", -1.0).message, "must be >= 0 1/s"));
+  EXPECT_TRUE(contains(node_.setGravity({NAN, 0.0, 0.0}).message, "not finite"));
+  EXPECT_FALSE(node_.applied(3).accepted);
 }
 
 TEST_F(Services, RecordingRefusesNamesThatLeaveItsDirectory) {

@@ -49,8 +49,8 @@ Simulation shoot(RelaxationMethod relaxation) {
   organ.senses = {0.05, 0.1, 0.1, 0.01};
   organ.bending.proprioception.intrinsic_length = 0.01;
   Simulation simulation(scenario);
-  simulation.apply({StimulusKind::point_source, StimulusOperation::add, "lamp", {1.0, 2.0, 0.5}, 1.0});
-  simulation.apply({StimulusKind::light_direction, StimulusOperation::add, "sun", {0.0, 1.0, 1.0}, 1.0});
+  simulation.apply(StimulusCommand{StimulusKind::point_source, StimulusOperation::add, "lamp", {1.0, 2.0, 0.5}, 1.0});
+  simulation.apply(StimulusCommand{StimulusKind::light_direction, StimulusOperation::add, "sun", {0.0, 1.0, 1.0}, 1.0});
   return simulation;
 }
 
@@ -112,6 +112,19 @@ TEST(Allocations, AreNotNeededByAStepThatRemembers) {
   EXPECT_EQ(allocationsOfSteadySteps(simulation), 0);
 }
 
+TEST(Allocations, AreNotNeededByOrgansThatSenseEachOther) {
+  Scenario scenario = shoot(RelaxationMethod::statics).scenario();
+  scenario.organs.front().id = "an_organ_whose_name_is_too_long_for_a_short_string";
+  scenario.organs.front().source = OrganSource{0.9, 1.0};
+  scenario.organs.push_back(scenario.organs.front());
+  scenario.organs.back().id = "another_organ_whose_name_is_long";
+  scenario.organs.back().base.position.y() = 1.0;
+  Simulation simulation(scenario);
+  simulation.apply(
+      StimulusCommand{StimulusKind::point_source, StimulusOperation::add, "a_lamp_with_a_long_name", {1, 2, 0}, 1.0});
+  EXPECT_EQ(allocationsOfSteadySteps(simulation), 0);
+}
+
 TEST(Allocations, AreNotNeededWithAnyCueAndGrowthLaw) {
   Scenario scenario = shoot(RelaxationMethod::statics).scenario();
   OrganScenario& organ = scenario.organs.front();
@@ -122,7 +135,7 @@ TEST(Allocations, AreNotNeededWithAnyCueAndGrowthLaw) {
   organ.bending.rotation = growth::RestRotation{1.0, 1e-3};
   organ.bending.saturation = true;
   Simulation simulation(scenario);
-  simulation.apply({StimulusKind::point_source, StimulusOperation::add, "lamp", {1.0, 2.0, 0.5}, 1.0});
+  simulation.apply(StimulusCommand{StimulusKind::point_source, StimulusOperation::add, "lamp", {1.0, 2.0, 0.5}, 1.0});
   EXPECT_EQ(allocationsOfSteadySteps(simulation), 0);
 }
 

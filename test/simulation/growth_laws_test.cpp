@@ -89,7 +89,8 @@ TEST(GravitropismAlone, IsSecondOrderInTimeUnlessToldOtherwise) {
 
 rod::Rod apicalPhototropism(double step, double longest) {
   Scenario scenario = kinematicScenario(step);
-  scenario.protocol = {{0.0, {StimulusKind::light_direction, StimulusOperation::add, "sky", Vector3::UnitZ(), 1.0}}};
+  scenario.protocol = {
+      {0.0, StimulusCommand{StimulusKind::light_direction, StimulusOperation::add, "sky", Vector3::UnitZ(), 1.0}}};
   OrganScenario& organ = scenario.organs.front();
   organ.section.radius = 0.1;
   organ.elements = static_cast<std::size_t>(std::lround(1.0 / longest));
@@ -136,7 +137,8 @@ TEST_P(RolledOrgan, ShootsLiftTheirTip) {
 TEST_P(RolledOrgan, LampsDrawTheTipTowardsThem) {
   Scenario s = scenario();
   s.organs.front().senses.point_source = 0.2;
-  s.protocol = {{0.0, {StimulusKind::point_source, StimulusOperation::add, "lamp", {0.5, 3.0, 4.0}, 1.0}}};
+  s.protocol = {
+      {0.0, StimulusCommand{StimulusKind::point_source, StimulusOperation::add, "lamp", {0.5, 3.0, 4.0}, 1.0}}};
   const Vector3 end = tip(grown(s, 10));
   EXPECT_GT(end.y(), 0.05);
   EXPECT_GT(end.z(), 0.05);
@@ -154,8 +156,9 @@ TEST_P(RolledOrgan, CentrelineDoesNotDependOnRoll) {
     organ.section = support::section(0.05, 1.0, 2.0);
     organ.senses = {0.1, 0.2, 0.1, 0.01};
     organ.bending.proprioception.intrinsic_length = 0.02;
-    s.protocol = {{0.0, {StimulusKind::point_source, StimulusOperation::add, "lamp", {1.0, 1.0, 0.3}, 1.0}},
-                  {0.0, {StimulusKind::light_direction, StimulusOperation::add, "sun", {0.2, -1.0, 0.5}, 1.0}}};
+    s.protocol = {
+        {0.0, StimulusCommand{StimulusKind::point_source, StimulusOperation::add, "lamp", {1.0, 1.0, 0.3}, 1.0}},
+        {0.0, StimulusCommand{StimulusKind::light_direction, StimulusOperation::add, "sun", {0.2, -1.0, 0.5}, 1.0}}};
     return grown(s, 10);
   };
   const rod::Rod reference = centreline(support::alongX());
@@ -181,9 +184,10 @@ TEST(ElasticOrgan, TurnsRigidlyWithBaseGravityAndCues) {
     organ.rest_curvature = {0.2, -0.1, 0.6};
     organ.senses = {0.1, 0.2, 0.1, 0.01};
     organ.bending.proprioception.intrinsic_length = 0.02;
-    s.protocol = {
-        {0.0, {StimulusKind::point_source, StimulusOperation::add, "lamp", turn * Vector3(1.0, 1.0, 0.3), 1.0}},
-        {0.0, {StimulusKind::light_direction, StimulusOperation::add, "sun", turn * Vector3(0.2, -1.0, 0.5), 1.0}}};
+    s.protocol = {{0.0, StimulusCommand{StimulusKind::point_source, StimulusOperation::add, "lamp",
+                                        turn * Vector3(1.0, 1.0, 0.3), 1.0}},
+                  {0.0, StimulusCommand{StimulusKind::light_direction, StimulusOperation::add, "sun",
+                                        turn * Vector3(0.2, -1.0, 0.5), 1.0}}};
     return grown(s, 10);
   };
   const rod::Quaternion turn = rod::exp({0.7, -1.1, 0.4});
@@ -230,7 +234,8 @@ Vector3 elasticTip(int steps) {
   scenario.relaxation_settings.tolerance = 1e-12;
   scenario.weight = true;
   scenario.gravity = -Vector3::UnitZ();
-  scenario.protocol = {{0.0, {StimulusKind::point_source, StimulusOperation::add, "lamp", {1.0, 2.0, 1.0}, 1.0}}};
+  scenario.protocol = {
+      {0.0, StimulusCommand{StimulusKind::point_source, StimulusOperation::add, "lamp", {1.0, 2.0, 1.0}, 1.0}}};
   OrganScenario& organ = scenario.organs.front();
   organ.section = support::section(0.05, 1.0, 1.5);
   organ.senses = {0.15, 0.0, 0.05, 0.01};

@@ -61,9 +61,11 @@ Scenario heavyOrgan(const Quaternion& turn, double roll) {
   scenario.weight = true;
   scenario.gravity = turn * Vector3(0.1, 0.2, -1.0);
   scenario.protocol = {
-      {0.0, {StimulusKind::point_source, StimulusOperation::add, "lamp", turn * Vector3(1.0, 1.0, 0.3), 1.0}},
-      {0.0, {StimulusKind::light_direction, StimulusOperation::add, "sun", turn * Vector3(0.2, -1.0, 0.5), 1.0}},
-      {0.2, {StimulusKind::light_direction, StimulusOperation::remove, "sun", {}, 1.0}}};
+      {0.0,
+       StimulusCommand{StimulusKind::point_source, StimulusOperation::add, "lamp", turn * Vector3(1.0, 1.0, 0.3), 1.0}},
+      {0.0, StimulusCommand{StimulusKind::light_direction, StimulusOperation::add, "sun",
+                            turn * Vector3(0.2, -1.0, 0.5), 1.0}},
+      {0.2, StimulusCommand{StimulusKind::light_direction, StimulusOperation::remove, "sun", Vector3::Zero(), 1.0}}};
   OrganScenario& organ = scenario.organs.front();
   organ.base = {turn * Vector3(0.3, 0.1, -0.2), turn * support::rolled(support::alongX(), roll)};
   organ.section = support::section(0.05, 1.0, 2.0);

@@ -101,8 +101,8 @@ TEST(ApicalSensing, IsWhatEveryBendReports) {
 TEST(Routes, OfOneCueAddUpAndLeaveOtherCuesAlone) {
   const auto tip = [](const std::vector<double>& weights) {
     Scenario scenario = apicalGravitropism(1.2, 2.0, 0.05, 10);
-    scenario.protocol = {
-        {0.0, {StimulusKind::light_direction, StimulusOperation::add, "sun", Vector3(0.3, 1.0, 0.5), 1.0}}};
+    scenario.protocol = {{0.0, StimulusCommand{StimulusKind::light_direction, StimulusOperation::add, "sun",
+                                               Vector3(0.3, 1.0, 0.5), 1.0}}};
     OrganScenario& organ = scenario.organs.front();
     organ.senses.light_direction = 0.1;
     const Route route = organ.sensing[0];
@@ -250,11 +250,10 @@ double largestResponse(const std::vector<Pulse>& pulses, double duration) {
   organ.sensing[0].memory = growth::exponentialKernel(1.0);
   organ.sensing[0].before_start = BeforeStart::zero;
   for (const Pulse& pulse : pulses) {
-    scenario.protocol.push_back(
-        {pulse.start,
-         {StimulusKind::light_direction, StimulusOperation::add, "lamp", Vector3::UnitX(), pulse.intensity}});
-    scenario.protocol.push_back(
-        {pulse.end, {StimulusKind::light_direction, StimulusOperation::remove, "lamp", {}, 1.0}});
+    scenario.protocol.push_back({pulse.start, StimulusCommand{StimulusKind::light_direction, StimulusOperation::add,
+                                                              "lamp", Vector3::UnitX(), pulse.intensity}});
+    scenario.protocol.push_back({pulse.end, StimulusCommand{StimulusKind::light_direction, StimulusOperation::remove,
+                                                            "lamp", Vector3::Zero(), 1.0}});
   }
   const std::vector<double> angles = tipAngles(scenario, std::lround(duration / kC6Step));
   return *std::max_element(angles.begin(), angles.end());
@@ -297,8 +296,9 @@ TEST(LightPulses, ThatSwitchAfterADelayLoseNoOrder) {
     organ.sensing.resize(1);
     organ.sensing[0].cues = {Cue::light_direction};
     organ.sensing[0].memory = growth::Delay{0.4};
-    scenario.protocol = {{0.2, {StimulusKind::light_direction, StimulusOperation::add, "lamp", Vector3::UnitX(), 1.0}},
-                         {0.5, {StimulusKind::light_direction, StimulusOperation::remove, "lamp", {}, 1.0}}};
+    scenario.protocol = {
+        {0.2, StimulusCommand{StimulusKind::light_direction, StimulusOperation::add, "lamp", Vector3::UnitX(), 1.0}},
+        {0.5, StimulusCommand{StimulusKind::light_direction, StimulusOperation::remove, "lamp", Vector3::Zero(), 1.0}}};
     return tipAngles(scenario, std::lround(1.0 / step)).back();
   };
   for (const double step : {0.1, 0.05}) EXPECT_NEAR(angle(step), 0.3e-4, 1e-11) << step;
@@ -312,8 +312,8 @@ Scenario everyRoute(double step, std::size_t elements) {
   Scenario scenario = kinematicScenario(step, elements);
   scenario.gravity = {0.0, 0.0, -1.0};
   scenario.protocol = {
-      {0.0, {StimulusKind::light_direction, StimulusOperation::add, "sun", Vector3(0.3, 1.0, 0.5), 1.0}},
-      {0.0, {StimulusKind::point_source, StimulusOperation::add, "lamp", Vector3(1.0, -0.5, 1.0), 1.0}}};
+      {0.0, StimulusCommand{StimulusKind::light_direction, StimulusOperation::add, "sun", Vector3(0.3, 1.0, 0.5), 1.0}},
+      {0.0, StimulusCommand{StimulusKind::point_source, StimulusOperation::add, "lamp", Vector3(1.0, -0.5, 1.0), 1.0}}};
   OrganScenario& organ = scenario.organs.front();
   organ.senses.gravity = organ.senses.light_direction = organ.senses.point_source = 0.03;
   organ.senses.softening_length = 0.01;
@@ -450,8 +450,10 @@ TEST(Histories, AreThoseOfAPauseWithoutSteps) {
   for (int i = 0; i < 5; ++i) {
     ASSERT_TRUE(plain.step().ok);
     ASSERT_TRUE(paused.step().ok);
-    paused.apply({StimulusKind::light_direction, StimulusOperation::add, "flash", Vector3::UnitZ(), 100.0});
-    paused.apply({StimulusKind::light_direction, StimulusOperation::remove, "flash", {}, 1.0});
+    paused.apply(
+        StimulusCommand{StimulusKind::light_direction, StimulusOperation::add, "flash", Vector3::UnitZ(), 100.0});
+    paused.apply(
+        StimulusCommand{StimulusKind::light_direction, StimulusOperation::remove, "flash", Vector3::Zero(), 1.0});
   }
   EXPECT_TRUE(sameBits(onlyRod(plain), onlyRod(paused)));
 }

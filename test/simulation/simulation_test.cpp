@@ -91,7 +91,9 @@ TEST(Simulation, RefusesWhatMakesNoSenseAndChangesNothing) {
   EXPECT_THAT(simulation.apply(lamp("a", {1, 0, 0}, 1.0, StimulusOperation::remove)).refusal,
               HasSubstr("there is no point_source 'a' to remove"));
   EXPECT_THAT(
-      simulation.apply({StimulusKind::light_direction, StimulusOperation::add, "sun", Vector3::Zero(), 1.0}).refusal,
+      simulation
+          .apply(StimulusCommand{StimulusKind::light_direction, StimulusOperation::add, "sun", Vector3::Zero(), 1.0})
+          .refusal,
       HasSubstr("zero length"));
   EXPECT_EQ(simulation.takeApplied().size(), 8u);
   ASSERT_TRUE(simulation.step().ok);
@@ -109,7 +111,7 @@ TEST(Simulation, BoundsTheNumberOfStimuli) {
 
 TEST(Simulation, NormalisesLightDirections) {
   Simulation simulation(shoot());
-  simulation.apply({StimulusKind::light_direction, StimulusOperation::add, "sun", {3.0, 0.0, 4.0}, 1.0});
+  simulation.apply(StimulusCommand{StimulusKind::light_direction, StimulusOperation::add, "sun", {3.0, 0.0, 4.0}, 1.0});
   const Vector3 towards = simulation.environment().light_directions.front().towards;
   EXPECT_LT((towards - Vector3(0.6, 0.0, 0.8)).norm(), 1e-15);
 }
@@ -117,7 +119,7 @@ TEST(Simulation, NormalisesLightDirections) {
 TEST(Simulation, KeepsPointSourcesAndLightsOfOneIdApart) {
   Simulation simulation(shoot());
   simulation.apply(lamp("a", {1, 0, 0}));
-  simulation.apply({StimulusKind::light_direction, StimulusOperation::add, "a", {1.0, 0.0, 0.0}, 1.0});
+  simulation.apply(StimulusCommand{StimulusKind::light_direction, StimulusOperation::add, "a", {1.0, 0.0, 0.0}, 1.0});
   simulation.apply(lamp("a", {2, 0, 0}));
   EXPECT_EQ(simulation.environment().point_sources.size(), 1u);
   EXPECT_EQ(simulation.environment().point_sources.front().position.x(), 2.0);
@@ -133,15 +135,15 @@ TEST(Simulation, TakesTheProtocolAtTheFirstStepBoundaryThatIsNotTooEarly) {
                        {0.31, lamp("between", {3, 0, 0})},
                        {0.31, lamp("first", Vector3::Zero(), 1.0, StimulusOperation::remove)}};
   Simulation simulation(scenario);
-  std::vector<AppliedStimulus> applied = simulation.takeApplied();
+  std::vector<AppliedCommand> applied = simulation.takeApplied();
   ASSERT_EQ(applied.size(), 1u);
   EXPECT_EQ(applied[0].step, 0u);
   for (int i = 0; i < 5; ++i) ASSERT_TRUE(simulation.step().ok);
   applied = simulation.takeApplied();
   ASSERT_EQ(applied.size(), 3u);
-  EXPECT_EQ(applied[0].command.id, "on_boundary");
+  EXPECT_EQ(std::get<StimulusCommand>(applied[0].command).id, "on_boundary");
   EXPECT_EQ(applied[0].step, 3u);
-  EXPECT_EQ(applied[1].command.id, "between");
+  EXPECT_EQ(std::get<StimulusCommand>(applied[1].command).id, "between");
   EXPECT_EQ(applied[1].step, 4u);
   EXPECT_EQ(applied[2].step, 4u);
   EXPECT_EQ(simulation.environment().point_sources.size(), 2u);
@@ -277,7 +279,8 @@ TEST(StepLimits, CutAStepIntoTheFewestPartsThatKeepThem) {
   // Light from above, sensitivity 0.2 on radius 0.05: 4 rad per unit length and strain at first, 0.2 per bend.
   const auto lit = [](Scenario& s) {
     s.organs.front().senses.light_direction = 0.2;
-    s.protocol = {{0.0, {StimulusKind::light_direction, StimulusOperation::add, "sky", Vector3::UnitZ(), 1.0}}};
+    s.protocol = {
+        {0.0, StimulusCommand{StimulusKind::light_direction, StimulusOperation::add, "sky", Vector3::UnitZ(), 1.0}}};
   };
   EXPECT_EQ(partsWith([&](Scenario& s) {
               lit(s);
@@ -387,7 +390,7 @@ TEST(Simulation, AFailedStepChangesNothingAndSaysWhy) {
   weak.senses = {0.0, 20.0, 0.0, 0.0};  // curls far beyond what three elements resolve
   scenario.stepping.limits.bend_angle = scenario.stepping.limits.total_angle = kUnlimited;
   Simulation simulation(scenario);
-  simulation.apply({StimulusKind::light_direction, StimulusOperation::add, "sun", {0.0, 1.0, 0.0}, 1.0});
+  simulation.apply(StimulusCommand{StimulusKind::light_direction, StimulusOperation::add, "sun", {0.0, 1.0, 0.0}, 1.0});
   StepReport report;
   std::uint64_t good = 0;
   std::vector<Vector3> tips;

@@ -80,7 +80,8 @@ TEST(ForcedOrgan, BendsLessWhereItGrowsLess) {
   organ.elongation = false;
   organ.loads.tip_force = {-0.6, 0.0, 0.0};
   organ.senses.light_direction = 1e-6;
-  scenario.protocol = {{0.0, {StimulusKind::light_direction, StimulusOperation::add, "sky", Vector3::UnitZ(), 1.0}}};
+  scenario.protocol = {
+      {0.0, StimulusCommand{StimulusKind::light_direction, StimulusOperation::add, "sky", Vector3::UnitZ(), 1.0}}};
   const rod::Rod rod = grown(scenario, 10);
   EXPECT_DOUBLE_EQ(rod.restLength(), 1.0);
   EXPECT_NEAR(rod.bends[10].rest_curvature.y(), 0.4 * 0.5 * 1e-6 / 0.05, 1e-11);
@@ -284,7 +285,7 @@ Vector3 agingTip(int steps, bool coupled, const growth::Proprioception& proprioc
   organ.section = support::section(0.05, 1.0, 1.5);
   organ.profile = growth::UniformProfile{1.0};
   organ.senses.gravity = 0.15;
-  organ.bending.proprioception.intrinsic_length = proprioception_length;
+  organ.bending.proprioception = proprioception;
   organ.aging->young_modulus->mature = 3.0 * organ.section.young_modulus;
   if (coupled) {
     // Leaning, so that all of it is pressed and neither the factor nor the clock comes to the bounds where they have
@@ -443,7 +444,8 @@ TEST(GrowthZone, LeavesItsBendBehindAndDividesIt) {
 /// Tip of an organ that bends towards a light, its parts limited by the way of the tip alone.
 Vector3 tipWithLimit(double tip_advance) {
   Scenario scenario = kinematicScenario(1.0, 50);
-  scenario.protocol = {{0.0, {StimulusKind::light_direction, StimulusOperation::add, "sky", Vector3::UnitZ(), 1.0}}};
+  scenario.protocol = {
+      {0.0, StimulusCommand{StimulusKind::light_direction, StimulusOperation::add, "sky", Vector3::UnitZ(), 1.0}}};
   scenario.stepping.limits.tip_advance = tip_advance;
   scenario.stepping.limits.smallest_part = 1e-4;
   OrganScenario& organ = scenario.organs.front();

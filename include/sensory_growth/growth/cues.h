@@ -71,6 +71,7 @@ class CueField {
 
   const Senses& senses_;
   const std::vector<PointSource>& point_sources_;
+  double later_;                 ///< than the time for which they stand [s]
   rod::Vector3 up_;              ///< of gravity alone, the same everywhere
   rod::Vector3 towards_lights_;  ///< the same for parallel light
   double apical_phase_;          ///< of the oscillator [rad]

@@ -14,6 +14,10 @@ struct PointSource {
   std::string id;                                ///< unique among point sources
   rod::Vector3 position = rod::Vector3::Zero();  ///< [m]
   double strength = 1.0;                         ///< [-]
+  rod::Vector3 velocity = rod::Vector3::Zero();  ///< per second of growth time [m/s]
+
+  /// Where it is `later` [s] than the time for which `position` holds.
+  rod::Vector3 place(double later) const { return position + later * velocity; }
 };
 
 /// Parallel light, such as that of the sun.
@@ -25,7 +29,7 @@ struct LightDirection {
 
 /// Everything outside an organ that it can sense.
 struct Environment {
-  double time = 0.0;                           ///< growth time at which this holds [s]
+  double time = 0.0;                           ///< growth time at which all this holds [s]
   rod::Vector3 down = -rod::Vector3::UnitZ();  ///< unit vector of gravity as it is sensed; zero in weightlessness
   std::vector<PointSource> point_sources;
   std::vector<LightDirection> light_directions;

@@ -12,15 +12,17 @@
 #include <optional>
 #include <string>
 
-#include "sensory_growth/AppliedStimulus.h"
+#include "sensory_growth/AppliedCommand.h"
 #include "sensory_growth/LightDirection.h"
 #include "sensory_growth/OrganState.h"
 #include "sensory_growth/PointSource.h"
 #include "sensory_growth/Relaxation.h"
+#include "sensory_growth/SetGravity.h"
+#include "sensory_growth/SetParameter.h"
 #include "sensory_growth/Stimuli.h"
 #include "sensory_growth/rod/rod.h"
 #include "sensory_growth/ros/snapshot.h"
-#include "sensory_growth/simulation/stimuli.h"
+#include "sensory_growth/simulation/commands.h"
 
 namespace sensory_growth::node {
 
@@ -36,8 +38,7 @@ std_msgs::Header makeHeader(const Snapshot& snapshot, const std::string& frame);
 Relaxation toMessage(const simulation::OrganReport& report);
 OrganState toMessage(const OrganSnapshot& organ, const Snapshot& snapshot, const std::string& frame);
 Stimuli toStimuli(const Snapshot& snapshot, const std::string& frame);
-AppliedStimulus toMessage(const simulation::AppliedStimulus& stimulus, const Snapshot& snapshot,
-                          const std::string& frame);
+AppliedCommand toMessage(const simulation::AppliedCommand& applied, const Snapshot& snapshot, const std::string& frame);
 
 /// Nothing if the operation is none of ADD, CHANGE and REMOVE. The vector stays in the frame of the message.
 std::optional<simulation::StimulusCommand> toCommand(const PointSource& message);
@@ -48,5 +49,8 @@ simulation::StimulusCommand toCommand(const geometry_msgs::PointStamped& message
 
 /// Sets the light `names::kSunLight`.
 simulation::StimulusCommand toCommand(const geometry_msgs::Vector3Stamped& message);
+
+simulation::ParameterCommand toCommand(const SetParameter::Request& request);
+simulation::GravityCommand toCommand(const SetGravity::Request& request);
 
 }  // namespace sensory_growth::node

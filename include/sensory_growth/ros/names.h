@@ -19,7 +19,7 @@ inline constexpr char kOrgans[] = "organs";  // organs/<id>/state
 inline constexpr char kState[] = "state";
 inline constexpr char kStatus[] = "status";
 inline constexpr char kStimuli[] = "stimuli";
-inline constexpr char kAppliedStimuli[] = "applied_stimuli";
+inline constexpr char kAppliedCommands[] = "applied_commands";
 inline constexpr char kScenario[] = "scenario";
 inline constexpr char kProtocol[] = "protocol";
 inline constexpr char kParameters[] = "parameters";
@@ -35,6 +35,8 @@ inline constexpr char kPause[] = "pause";
 inline constexpr char kResume[] = "resume";
 inline constexpr char kReset[] = "reset";
 inline constexpr char kStep[] = "step";
+inline constexpr char kSetParameter[] = "set_parameter";
+inline constexpr char kSetGravity[] = "set_gravity";
 inline constexpr char kStartRecording[] = "start_recording";
 inline constexpr char kStopRecording[] = "stop_recording";
 

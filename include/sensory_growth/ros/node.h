@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "sensory_growth/Command.h"
+#include "sensory_growth/SetGravity.h"
+#include "sensory_growth/SetParameter.h"
 #include "sensory_growth/StartRecording.h"
 #include "sensory_growth/Step.h"
 #include "sensory_growth/StopRecording.h"

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "sensory_growth/AppliedStimulus.h"
+#include "sensory_growth/AppliedCommand.h"
 #include "sensory_growth/Status.h"
 #include "sensory_growth/ros/markers.h"
 #include "sensory_growth/ros/parameters.h"
@@ -43,7 +43,7 @@ class Publishers : public LoopListener {
              ros::NodeHandle private_node);
 
   void onState(const SnapshotPtr& snapshot) override;
-  void onStimulus(const simulation::AppliedStimulus& stimulus, const Snapshot& snapshot) override;
+  void onCommand(const simulation::AppliedCommand& command, const Snapshot& snapshot) override;
   void onStimuli(const Snapshot& snapshot) override;
   void onStatus(const LoopStatus& status, const Snapshot& snapshot) override;
 
@@ -98,7 +98,7 @@ class Publishers : public LoopListener {
   // Of the loop's thread alone.
   std::unique_ptr<Recording> recording_;
   std::optional<MarkerStream> recorded_markers_;
-  std::vector<boost::shared_ptr<const AppliedStimulus>> history_;  // since the last reset
+  std::vector<boost::shared_ptr<const AppliedCommand>> history_;  // since the last reset
   std::uint32_t history_epoch_ = 0;
   ros::Time last_tf_stamp_;
 

@@ -54,10 +54,10 @@ class LoopListener {
   /// A new state: the first, after a step, or after a reset.
   virtual void onState(const SnapshotPtr& snapshot) = 0;
 
-  /// A stimulus command was taken while the state of `snapshot` was current.
-  virtual void onStimulus(const simulation::AppliedStimulus& stimulus, const Snapshot& snapshot) = 0;
+  /// A command was taken while the state of `snapshot` was current.
+  virtual void onCommand(const simulation::AppliedCommand& command, const Snapshot& snapshot) = 0;
 
-  /// The stimuli in force are those of `snapshot`.
+  /// Gravity and the stimuli in force are those of `snapshot`.
   virtual void onStimuli(const Snapshot& snapshot) = 0;
 
   virtual void onStatus(const LoopStatus& status, const Snapshot& snapshot) = 0;
@@ -90,6 +90,7 @@ class SimulationLoop {
   Answer resume();
   Answer reset();
   Answer step(std::uint32_t steps);
+  Answer apply(const simulation::Command& command);
 
   /// Runs `action` on the thread of the loop between two steps and shows the status afterwards. What `action` returns
   /// is why it failed, or nothing.
@@ -122,7 +123,7 @@ class SimulationLoop {
   void resumeNow(const Reply& reply);
   void resetNow(const Reply& reply);
   void stepNow(const Reply& reply, std::uint32_t steps);
-  void applyNow(const simulation::StimulusCommand& stimulus);
+  simulation::AppliedCommand applyNow(const simulation::Command& command);
   bool wantsStep() const { return step_request_ || mode_ == Mode::running; }
   void advance();
   void abortSteps(const std::string& why);

@@ -30,8 +30,9 @@ struct OrganSnapshot {
 struct Snapshot {
   ros::Time stamp;  ///< ROS time of the step; two states never share it
   std::uint64_t step_index = 0;
-  std::uint32_t epoch = 0;   ///< resets so far
-  double growth_time = 0.0;  ///< [s]
+  std::uint32_t epoch = 0;                      ///< resets so far
+  double growth_time = 0.0;                     ///< [s]
+  rod::Vector3 gravity = rod::Vector3::Zero();  ///< [m/s^2]
   growth::Environment environment;
   std::vector<OrganSnapshot> organs;
 };

@@ -12,6 +12,7 @@
 #include "sensory_growth/mechanics/energy.h"
 #include "sensory_growth/mechanics/static_equilibrium.h"
 #include "sensory_growth/rod/rod.h"
+#include "sensory_growth/simulation/parameters.h"
 #include "sensory_growth/simulation/scenario.h"
 
 namespace sensory_growth::simulation {
@@ -54,8 +55,18 @@ class Organ {
   /// failure (report.ok() is false) the organ is left as it was before the call.
   const OrganReport& advance(double dt, const growth::Environment& environment);
 
-  /// Takes back the last advance(), its report included; once.
+  /// Takes back the last advance(), its report included; once. What was set before it stays set.
   void undo();
+
+  /// Gives a parameter that the organ has another value, from the next step on.
+  void set(const Parameter& parameter, double value) { parameter.set(scenario_, value); }
+
+  /// Changes the weight, if the organ has any. An organ in equilibrium relaxes under it when the next step begins.
+  void setGravity(const rod::Vector3& gravity);
+
+  /// Begins a step: relaxes under a weight that changed, so that the step starts from equilibrium. advance() does so
+  /// itself; called before it, others can sense where the organ went. What fails here fails advance().
+  void begin();
 
   const OrganScenario& scenario() const { return scenario_; }
   const rod::Rod& rod() const { return rod_; }
@@ -75,12 +86,14 @@ class Organ {
  private:
   double longestPart(const growth::Environment& environment, double time);
   OrganFault growAndRelax(double dt, const growth::Environment& environment, double time);
-  const rod::Rod& beforePart() const { return report_.substeps == 0 ? before_step_ : before_part_; }
+  bool startsWithStep() const { return report_.substeps == 0 && !weight_changed_before_step_; }
+  const rod::Rod& beforePart() const { return startsWithStep() ? before_step_ : before_part_; }
   const growth::GrowthStrain& growthStrain(double dt);
   void correctFactors(const growth::GrowthStrain& strain, double dt);
   void growOlder(const growth::GrowthStrain& strain, double dt, double share);
   double elasticAmplification() const;
   OrganFault relax();
+  OrganFault relaxFromAnywhere();
   OrganFault relaxInPassing();
   OrganFault relaxCorrected();
   OrganFault move(double duration);
@@ -89,6 +102,7 @@ class Organ {
   OrganScenario scenario_;
   Stepping stepping_;
   RelaxationMethod method_;
+  bool has_weight_;
   double growth_per_second_;
   mechanics::RelaxationSettings relaxation_settings_;
   mechanics::Loads loads_;
@@ -106,6 +120,8 @@ class Organ {
   std::vector<double> rates_;
   double amplification_ = 1.0, amplification_before_step_ = 1.0;  ///< as the last part left it
   OrganReport report_, report_before_step_;
+  bool weight_changed_ = false, weight_changed_before_step_ = false;  ///< since the last relaxation
+  bool has_begun_ = false;
 };
 
 }  // namespace sensory_growth::simulation

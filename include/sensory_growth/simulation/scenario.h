@@ -18,7 +18,7 @@
 #include "sensory_growth/mechanics/static_equilibrium.h"
 #include "sensory_growth/rod/division.h"
 #include "sensory_growth/rod/rod.h"
-#include "sensory_growth/simulation/stimuli.h"
+#include "sensory_growth/simulation/commands.h"
 
 namespace sensory_growth::simulation {
 
@@ -31,6 +31,12 @@ enum class RelaxationMethod {
   dynamics,    ///< the same by damped motion
   continuous,  ///< no equilibrium: growth and motion go on together
   kinematics,  ///< no elasticity: the organ is its rest state
+};
+
+/// An organ that the others sense as a point source that moves (model.md 14).
+struct OrganSource {
+  double label = 1.0;     ///< of the tissue that they sense, in [0, 1]; 1 is the apex
+  double strength = 1.0;  ///< multiplies their sensitivity to point sources [-]; negative repels
 };
 
 struct OrganScenario {
@@ -51,6 +57,7 @@ struct OrganScenario {
   std::vector<growth::Route> sensing;  ///< of cues that are not perceived where and when they are
   growth::BendingLaw bending;
   std::optional<growth::Aging> aging;
+  std::optional<OrganSource> source;  ///< nothing: the others do not sense it
 
   double longest_element = std::numeric_limits<double>::infinity();  ///< longer elements divide [m]; infinity: never
   rod::DivisionMode division = rod::DivisionMode::keep_strain;
@@ -74,12 +81,6 @@ struct Stepping {
   StepLimits limits;
 };
 
-/// A stimulus command with the growth time [s] from which it holds.
-struct TimedStimulus {
-  double time = 0.0;
-  StimulusCommand command;
-};
-
 struct Scenario {
   std::string name;
   std::string description;                   ///< what one should see; may be empty
@@ -92,7 +93,7 @@ struct Scenario {
   Stepping stepping;
   double duration = 0.0;  ///< growth time after which an unattended run ends [s]; 0: never
   std::vector<OrganScenario> organs;
-  std::vector<TimedStimulus> protocol;  ///< in order of time; time 0 is the start
+  std::vector<TimedCommand> protocol;  ///< in order of time; time 0 is the start
 };
 
 }  // namespace sensory_growth::simulation

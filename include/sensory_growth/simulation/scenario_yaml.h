@@ -17,12 +17,12 @@ Scenario loadScenario(const std::string& file);
 /// The same from text; `source` names it in messages.
 Scenario parseScenario(const std::string& yaml, const std::string& source);
 
-/// Reads a stimulus protocol on its own: a file whose only top-level keys besides `name` and `description` are
+/// Reads a protocol on its own: a file whose only top-level keys besides `name` and `description` are
 /// `stimuli` and `protocol`. In order of time; the stimuli are added at time 0. Throws as loadScenario() does, but
-/// cannot tell whether what it changes or removes will exist.
-std::vector<TimedStimulus> loadProtocol(const std::string& file);
+/// cannot tell whether what it changes, removes or sets will exist.
+std::vector<TimedCommand> loadProtocol(const std::string& file);
 
 /// The same from text.
-std::vector<TimedStimulus> parseProtocol(const std::string& yaml, const std::string& source);
+std::vector<TimedCommand> parseProtocol(const std::string& yaml, const std::string& source);
 
 }  // namespace sensory_growth::simulation

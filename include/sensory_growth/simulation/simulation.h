@@ -3,21 +3,17 @@
 /// Organs that grow and relax together under shared stimuli.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "sensory_growth/simulation/commands.h"
 #include "sensory_growth/simulation/organ.h"
+#include "sensory_growth/simulation/organ_sources.h"
 #include "sensory_growth/simulation/scenario.h"
 #include "sensory_growth/simulation/workers.h"
 
 namespace sensory_growth::simulation {
-
-/// A stimulus command as it was taken, with the step before which it took effect.
-struct AppliedStimulus {
-  std::uint64_t step = 0;  ///< index of the state that was current when it was applied
-  StimulusCommand command;
-  std::string refusal;  ///< why it changed nothing; empty if it was applied
-};
 
 struct StepReport {
   bool ok = true;
@@ -34,18 +30,23 @@ class Simulation {
   explicit Simulation(Scenario scenario, int threads = 1);
 
   /// Advances every organ by one step, then takes the commands of the protocol that have fallen due. When an organ
-  /// fails, no organ and no counter moves and the report says why.
+  /// fails, no organ and no counter moves and the report says why; what was applied before stays in force.
   StepReport step();
 
-  /// Applies a command now, between two steps, and keeps it in applied().
-  AppliedStimulus apply(const StimulusCommand& command);
+  /// Applies a command now, between two steps, and keeps it for takeApplied().
+  AppliedCommand apply(const Command& command);
 
-  /// Back to step 0 of the scenario; everything applied since is forgotten.
+  /// Back to step 0 of the scenario and its numbers; everything applied since is forgotten.
   void reset();
 
   const Scenario& scenario() const { return scenario_; }
   const std::vector<Organ>& organs() const { return organs_; }
+
+  /// What all organs sense; organs that sense each other come on top.
   const growth::Environment& environment() const { return environment_; }
+
+  /// In force, in the world frame [m/s^2].
+  const rod::Vector3& gravity() const { return gravity_; }
 
   /// Steps taken since the start or the last reset.
   std::uint64_t stepIndex() const { return step_index_; }
@@ -57,18 +58,24 @@ class Simulation {
   bool finished() const;
 
   /// Commands taken since the previous call, in order: those of the protocol and those given to apply().
-  std::vector<AppliedStimulus> takeApplied();
+  std::vector<AppliedCommand> takeApplied();
 
  private:
   void applyDue();
+  std::optional<std::string> take(const StimulusCommand& command);
+  std::optional<std::string> take(const ParameterCommand& command);
+  std::optional<std::string> take(const GravityCommand& command);
 
   Scenario scenario_;
   Workers workers_;
+  rod::Vector3 gravity_ = rod::Vector3::Zero();
+  bool gravity_changed_ = false;  ///< since the last step
   growth::Environment environment_;
   std::vector<Organ> organs_;
+  OrganSources sources_;
   std::uint64_t step_index_ = 0;
   std::size_t next_in_protocol_ = 0;
-  std::vector<AppliedStimulus> applied_;
+  std::vector<AppliedCommand> applied_;
 };
 
 }  // namespace sensory_growth::simulation

@@ -5,7 +5,7 @@
 
 #include <cstddef>
 #include <functional>
-#include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,31 +14,11 @@
 #include <yaml-cpp/yaml.h>
 
 #include "sensory_growth/rod/rotations.h"
+#include "sensory_growth/simulation/range.h"
 #include "sensory_growth/simulation/scenario_error.h"
 #include "sensory_growth/simulation/units.h"
 
 namespace sensory_growth::simulation {
-
-/// Values that a number may take, in SI. NaN is in no range; infinity only after orInfinity(), which says how to write
-/// it.
-struct Range {
-  double low = -std::numeric_limits<double>::infinity();
-  double high = std::numeric_limits<double>::infinity();
-  bool includes_low = true;
-  bool includes_high = true;
-  const char* infinity = nullptr;  ///< the word for it; null if it is out of range
-
-  constexpr Range upTo(double value) const { return {low, value, includes_low, true, infinity}; }
-  constexpr Range below(double value) const { return {low, value, includes_low, false, infinity}; }
-  constexpr Range orInfinity(const char* word = "inf") const { return {low, high, includes_low, includes_high, word}; }
-
-  bool contains(double value) const;
-  std::string describe(const char* unit) const;  ///< such as "must be > 0 m or inf"
-};
-
-inline constexpr Range anyNumber{};
-constexpr Range above(double value) { return {value, anyNumber.high, false, true, nullptr}; }
-constexpr Range atLeast(double value) { return {value, anyNumber.high, true, true, nullptr}; }
 
 enum class Presence { required, optional };
 
@@ -52,11 +32,16 @@ using Options = std::vector<std::pair<std::string, Value>>;
 class YamlReader {
  public:
   using Body = std::function<void(YamlReader&)>;
+  using Lines = std::map<std::string, int>;  ///< of words, where each stood first
 
   YamlReader(const YAML::Node& mapping, std::string path, std::vector<Problem>& problems);
 
   std::string text(const std::string& key, std::optional<std::string> fallback = {});
   std::string identifier(const std::string& key);  ///< a letter, then letters, digits, '_'
+
+  /// The same, refused if it is among those `given` before.
+  std::string uniqueIdentifier(const std::string& key, Lines& given);
+
   bool flag(const std::string& key, std::optional<bool> fallback = {});
   int count(const std::string& key, int low, int high, std::optional<int> fallback = {});
   double number(const std::string& key, const Range& range, std::optional<double> fallback = {});
