@@ -25,7 +25,7 @@ using support::tip;
 using support::tipAngle;
 using support::tipDirection;
 
-TimedStimulus light(const std::string& id, const Vector3& towards, double strength) {
+TimedCommand light(const std::string& id, const Vector3& towards, double strength) {
   return {0.0, StimulusCommand{StimulusKind::light_direction, StimulusOperation::add, id, towards, strength}};
 }
 

@@ -186,7 +186,7 @@ TEST(ParameterCommand, GivesTheBitsOfAScenarioWithTheValue) {
     const double value = 0.07;
     Scenario scenario = couple(RelaxationMethod::kinematics);
     scenario.protocol = {
-        {0.0, StimulusCommand{StimulusKind::point_source, StimulusOperation::add, "lamp", {0, 1, 1}, 1.0}},
+        {0.0, StimulusCommand{StimulusKind::point_source, StimulusOperation::add, "lamp", {0, 1, 1}, 2.0}},
         {0.0, StimulusCommand{StimulusKind::light_direction, StimulusOperation::add, "sun", {0, 1, 1}, 1.0}}};
     Scenario changed = scenario;
     parameter.set(changed.organs[1], value);

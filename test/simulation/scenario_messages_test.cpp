@@ -258,7 +258,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Spoilt{"poisson_ratio: 0.5", "poisson_ratio: 0.5, shear_modulus: 3 MPa", "organs[0].material",
                "^needs exactly one of 'poisson_ratio' and 'shear_modulus'$"},
-        Spoilt{"at: 3 h", "at: 1 h", "protocol[1].at", "^'1 h' is earlier than the entry before it, on line 35;"},
+        Spoilt{"at: 3 h", "at: 1 h", "protocol[1].at", "^'1 h' is earlier than the entry before it, on line 36;"},
         Spoilt{"remove: {point_source: {id: lamp}}", "add: {}, remove: {}", "protocol[1]", "needs exactly one of"},
         Spoilt{"remove: {point_source: {id: lamp}}", "remove: {}", "protocol[1].remove",
                "^needs exactly one of 'point_source' and 'light_direction'$"},
@@ -297,7 +297,7 @@ TEST(ScenarioYaml, IdsAreUniqueWithinTheirKind) {
   const std::string lamp = "    - {id: lamp, position: [10 cm, 0 m, 10 cm], strength: 1}\n";
   twice.insert(twice.find(lamp), lamp);
   EXPECT_EQ(list(problemsOf(twice)),
-            "test:32: stimuli.point_sources[1].id: 'lamp' is already used on line 31; ids are unique");
+            "test:33: stimuli.point_sources[1].id: 'lamp' is already used on line 32; ids are unique");
 
   std::string same_id_of_another_kind = valid;
   same_id_of_another_kind.replace(same_id_of_another_kind.find("id: lamp, pos"), 8, "id: sun");
@@ -306,7 +306,7 @@ TEST(ScenarioYaml, IdsAreUniqueWithinTheirKind) {
   const std::size_t begin = valid.find("  - id: first"), end = valid.find("stimuli:");
   std::string two_organs = valid;
   two_organs.insert(end, valid.substr(begin, end - begin));
-  EXPECT_EQ(list(problemsOf(two_organs)), "test:29: organs[1].id: 'first' is already used on line 10; ids are unique");
+  EXPECT_EQ(list(problemsOf(two_organs)), "test:30: organs[1].id: 'first' is already used on line 10; ids are unique");
 }
 
 TEST(ScenarioYaml, DuplicateKeyNamesBothLines) {

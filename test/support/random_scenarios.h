@@ -104,7 +104,7 @@ inline std::string distanceLaw(Dice& dice, const Draft& draft) {
 inline std::string sensesPart(Dice& dice, const Draft& draft) {
   return "sensitivities: {gravity: " + sensitivityOf(dice) + ", light_direction: " + sensitivityOf(dice) +
          ", point_source: " + sensitivityOf(dice) +
-         ", softening_length: " + si(draft.radius * dice.logBetween(0.01, 10.0), "m") +
+         ", softening_length: " + si(draft.length * dice.logBetween(0.02, 1.0), "m") +
          ", intensity_exponent: " + si(dice.chance(0.5) ? 1.0 : dice.logBetween(0.2, 3.0), "") +
          ", distance: {law: " + distanceLaw(dice, draft) + "}}\n" +
          "saturation: " + dice.pick<std::string>({"true", "false"}) + "\n";
