@@ -183,8 +183,12 @@ TEST(ParameterCommand, MeansOneOrganOrAll) {
 TEST(ParameterCommand, GivesTheBitsOfAScenarioWithTheValue) {
   for (const Parameter& parameter : parameters()) {
     SCOPED_TRACE(parameter.name);
-    const double value = 0.07;
-    Scenario scenario = couple(RelaxationMethod::kinematics);
+    const bool is_stress = parameter.name == "growth.stress_coupling.yield_margin";
+    const double value = is_stress ? 500.0 : 0.07;
+    Scenario scenario = couple(is_stress ? RelaxationMethod::statics : RelaxationMethod::kinematics);
+    if (is_stress) {
+      for (OrganScenario& organ : scenario.organs) organ.stress_coupling = growth::StressCoupling{1e4};
+    }
     scenario.protocol = {
         {0.0, StimulusCommand{StimulusKind::point_source, StimulusOperation::add, "lamp", {0, 1, 1}, 2.0}},
         {0.0, StimulusCommand{StimulusKind::light_direction, StimulusOperation::add, "sun", {0, 1, 1}, 1.0}}};
