@@ -50,8 +50,11 @@ std::uint8_t toConstant(StimulusOperation operation) {
   return AppliedCommand::ADD;
 }
 
-/// PointSource and LightDirection number their operations alike.
+/// PointSource, LightDirection and AppliedCommand number their operations alike.
 std::optional<StimulusOperation> toOperation(std::uint8_t constant) {
+  static_assert(static_cast<int>(PointSource::ADD) == static_cast<int>(AppliedCommand::ADD));
+  static_assert(static_cast<int>(PointSource::CHANGE) == static_cast<int>(AppliedCommand::CHANGE));
+  static_assert(static_cast<int>(PointSource::REMOVE) == static_cast<int>(AppliedCommand::REMOVE));
   static_assert(static_cast<int>(PointSource::ADD) == static_cast<int>(LightDirection::ADD));
   static_assert(static_cast<int>(PointSource::CHANGE) == static_cast<int>(LightDirection::CHANGE));
   static_assert(static_cast<int>(PointSource::REMOVE) == static_cast<int>(LightDirection::REMOVE));
@@ -186,6 +189,7 @@ OrganState toMessage(const OrganSnapshot& organ, const Snapshot& snapshot, const
     message.rest_arc_length.push_back(message.rest_arc_length.back() + element.rest_length);
     message.frames.push_back(toQuaternion(element.frame));
     message.radius.push_back(element.section.radius);
+    message.age.push_back(element.age);
     message.strain.push_back(toVector(element.strain));
   }
   message.growth_rate = organ.growth_rates;
@@ -265,6 +269,25 @@ StimulusCommand toCommand(const geometry_msgs::PointStamped& message) {
 
 StimulusCommand toCommand(const geometry_msgs::Vector3Stamped& message) {
   return {StimulusKind::light_direction, StimulusOperation::add, names::kSunLight, toEigen(message.vector), 1.0};
+}
+
+std::optional<simulation::Command> toCommand(const AppliedCommand& message) {
+  const rod::Vector3 vector = toEigen(message.vector);
+  const auto stimulus = [&](StimulusKind kind) -> std::optional<simulation::Command> {
+    return makeCommand(kind, message.operation, message.id, vector, message.strength);
+  };
+  switch (message.kind) {
+    case AppliedCommand::POINT_SOURCE:
+      return stimulus(StimulusKind::point_source);
+    case AppliedCommand::LIGHT_DIRECTION:
+      return stimulus(StimulusKind::light_direction);
+    case AppliedCommand::PARAMETER:
+      return simulation::ParameterCommand{message.id, message.parameter, message.value};
+    case AppliedCommand::GRAVITY:
+      return simulation::GravityCommand{vector};
+    default:
+      return std::nullopt;
+  }
 }
 
 simulation::ParameterCommand toCommand(const SetParameter::Request& request) {

@@ -65,7 +65,7 @@ void reportRelaxation(const OrganSnapshot& organ, DiagnosticStatusWrapper& statu
   status.add("rest length [m]", organ.rod.restLength());
 }
 
-void reportLoop(const LoopStatus& loop, const Snapshot& snapshot, DiagnosticStatusWrapper& status) {
+void reportLoop(const RunStatus& loop, const Snapshot& snapshot, DiagnosticStatusWrapper& status) {
   const bool is_fault = loop.mode == Mode::fault;
   const std::string mode = describe(loop.mode);
   status.summary(is_fault ? DiagnosticStatus::ERROR : DiagnosticStatus::OK,

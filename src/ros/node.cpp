@@ -9,55 +9,17 @@
 #include <algorithm>
 #include <exception>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 
 #include "sensory_growth/ros/conversions.h"
 #include "sensory_growth/ros/names.h"
-#include "sensory_growth/simulation/scenario_yaml.h"
 
 namespace sensory_growth::node {
 namespace {
 
-constexpr double kLongestStep = 1.0;      // of ROS time [s]; tf and timers cannot use a coarser clock (ros.md 33)
-constexpr double kShortestStep = 1.0e-6;  // [s]; stamps count nanoseconds
 constexpr std::chrono::milliseconds kSignalPatience{50};
-
-std::string readFile(const std::string& path, const std::string& parameter, std::vector<std::string>& problems) {
-  std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (!file.good() && !file.eof()) problems.push_back("~" + parameter + " is '" + path + "', which cannot be read");
-  return text;
-}
-
-/// Runs `read` and keeps what it throws as a problem.
-template <typename Read>
-void collect(std::vector<std::string>& problems, const Read& read) {
-  try {
-    read();
-  } catch (const std::exception& error) {
-    problems.push_back(error.what());
-  }
-}
-
-void checkStep(const Parameters& parameters, const simulation::Scenario& scenario, std::vector<std::string>& problems) {
-  if (parameters.growth_time_scale <= 0.0) return;  // reported already
-  const double step = scenario.stepping.step / parameters.growth_time_scale;
-  if (step <= kLongestStep && step >= kShortestStep) return;
-  std::ostringstream text;
-  text << "~growth_time_scale is " << parameters.growth_time_scale << ", so a step of " << scenario.stepping.step
-       << " s of growth takes " << step << " s of ROS time; it must be from " << kShortestStep << " to " << kLongestStep
-       << " s, which asks for a scale from " << scenario.stepping.step / kLongestStep << " to "
-       << scenario.stepping.step / kShortestStep;
-  problems.push_back(text.str());
-}
-
-std::string describeEffective(const Parameters& parameters) {
-  return "node: " + ros::this_node::getName() + "\nversion: " + SENSORY_GROWTH_VERSION + "\n" + toYaml(parameters);
-}
 
 template <typename Response>
 void fill(const Answer& answer, Response& response) {
@@ -86,31 +48,6 @@ int complain(const std::vector<std::string>& problems) {
 }
 
 }  // namespace
-
-LoadedScenario loadScenario(const Parameters& parameters, std::vector<std::string>& problems) {
-  LoadedScenario loaded;
-  Sources& sources = loaded.sources;
-  const std::size_t problems_before = problems.size();
-  sources.scenario = readFile(parameters.scenario, "scenario", problems);
-  if (!parameters.protocol.empty()) sources.protocol = readFile(parameters.protocol, "protocol", problems);
-  if (problems.size() > problems_before) return loaded;
-
-  collect(problems, [&] {
-    loaded.scenario = simulation::parseScenario(sources.scenario, parameters.scenario);
-    checkStep(parameters, loaded.scenario, problems);
-  });
-  collect(problems, [&] {
-    if (parameters.protocol.empty()) return;
-    auto& protocol = loaded.scenario.protocol;
-    for (auto& command : simulation::loadProtocol(parameters.protocol)) protocol.push_back(std::move(command));
-    std::stable_sort(protocol.begin(), protocol.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
-  });
-
-  sources.scenario_name = loaded.scenario.name;
-  sources.parameters = describeEffective(parameters);
-  for (const simulation::OrganScenario& organ : loaded.scenario.organs) sources.organs.push_back(organ.id);
-  return loaded;
-}
 
 Node::Node(const Parameters& parameters, LoadedScenario loaded)
     : parameters_(parameters),
@@ -161,7 +98,7 @@ int Node::run(const Signals& signals) {
   control_spinner_.start();
   step_spinner_.start();
   while (ros::ok() && !signals.wait(kSignalPatience)) {
-    const LoopStatus status = loop_.status();
+    const RunStatus status = loop_.status();
     if (!parameters_.exit_when_finished) continue;
     if (status.mode == Mode::finished) break;
     if (status.mode == Mode::fault) {
@@ -252,7 +189,8 @@ int runNode(const Signals& signals) {
   const ros::NodeHandle private_node("~");
   ParameterReading reading = loadParameters(private_node);
   LoadedScenario loaded;
-  if (!reading.parameters.scenario.empty()) loaded = loadScenario(reading.parameters, reading.problems);
+  if (!reading.parameters.scenario.empty())
+    loaded = loadScenario(reading.parameters, ros::this_node::getName(), reading.problems);
   for (std::string& problem : findClockProblems(reading.parameters.clock_mode)) {
     reading.problems.push_back(std::move(problem));
   }

@@ -1,7 +1,6 @@
 #include "sensory_growth/ros/simulation_loop.h"
 
 #include <chrono>
-#include <exception>
 #include <utility>
 #include <vector>
 
@@ -10,29 +9,19 @@ namespace {
 
 constexpr std::size_t kMostStimuliWaiting = 256;
 
-simulation::StepReport stepGuarded(simulation::Simulation& simulation) {
-  try {
-    return simulation.step();
-  } catch (const std::exception& error) {
-    return {false, error.what()};
-  }
-}
-
 std::string count(std::uint32_t steps) { return std::to_string(steps) + (steps == 1 ? " step" : " steps"); }
 
 }  // namespace
 
 SimulationLoop::SimulationLoop(simulation::Simulation simulation, const Settings& settings, Clock& clock,
-                               StimulusCounters& counters, LoopListener& listener)
-    : simulation_(std::move(simulation)),
-      clock_(clock),
-      counters_(counters),
+                               StimulusCounters& counters, RunListener& listener)
+    : clock_(clock),
       listener_(listener),
+      run_(
+          std::move(simulation), [&clock] { return clock.tick(); }, counters, listener),
       pacer_(settings.step, settings.real_time_factor),
       mode_(settings.start_paused ? Mode::paused : Mode::running),
-      queue_(kMostStimuliWaiting) {
-  showFirstState();
-}
+      queue_(kMostStimuliWaiting) {}
 
 SimulationLoop::~SimulationLoop() { stop(); }
 
@@ -74,7 +63,7 @@ Answer SimulationLoop::apply(const simulation::Command& command) {
 
 Answer SimulationLoop::atBoundary(const std::function<std::optional<std::string>(const Snapshot&)>& action) {
   return ask([this, action](const Reply& reply) {
-    const std::optional<std::string> failure = action(*snapshot_);
+    const std::optional<std::string> failure = action(*run_.snapshot());
     showStatus();
     reply->set_value(answer(!failure, failure.value_or("")));
   });
@@ -88,13 +77,8 @@ void SimulationLoop::refreshStatus() {
   }));
 }
 
-SnapshotPtr SimulationLoop::snapshot() const {
-  const std::lock_guard<std::mutex> lock(shown_mutex_);
-  return snapshot_;
-}
-
-LoopStatus SimulationLoop::status() const {
-  const std::lock_guard<std::mutex> lock(shown_mutex_);
+RunStatus SimulationLoop::status() const {
+  const std::lock_guard<std::mutex> lock(status_mutex_);
   return status_;
 }
 
@@ -112,7 +96,8 @@ Answer SimulationLoop::ask(const std::function<void(const Reply&)>& request) {
 
 Answer SimulationLoop::answer(bool success, const std::string& message) {
   clock_.flush();
-  return {success, message, snapshot_->step_index, snapshot_->stamp};
+  const SnapshotPtr snapshot = run_.snapshot();
+  return {success, message, snapshot->step_index, snapshot->stamp};
 }
 
 void SimulationLoop::run() {
@@ -160,9 +145,7 @@ void SimulationLoop::resumeNow(const Reply& reply) {
 
 void SimulationLoop::resetNow(const Reply& reply) {
   abortSteps("reset");
-  simulation_.reset();
-  ++epoch_;
-  showFirstState();
+  run_.reset();
   setMode(mode_ == Mode::running ? Mode::running : Mode::paused);
   pacer_.start(std::chrono::steady_clock::now());
   reply->set_value(answer(true, "back at step 0"));
@@ -181,10 +164,7 @@ void SimulationLoop::stepNow(const Reply& reply, std::uint32_t steps) {
 }
 
 simulation::AppliedCommand SimulationLoop::applyNow(const simulation::Command& command) {
-  simulation::AppliedCommand applied = simulation_.apply(command);
-  showApplied();
-  setSnapshot(snapshot_->stamp);
-  listener_.onStimuli(*snapshot_);
+  simulation::AppliedCommand applied = run_.apply(command);
   showStatus();
   return applied;
 }
@@ -192,20 +172,15 @@ simulation::AppliedCommand SimulationLoop::applyNow(const simulation::Command& c
 void SimulationLoop::advance() {
   const bool is_paced = !step_request_;
   if (is_paced) pacer_.stepBegins(std::chrono::steady_clock::now());
-  const simulation::StepReport report = stepGuarded(simulation_);
-  const bool has_applied = showApplied();  // taken while the state before this step was current
+  const simulation::StepReport report = run_.step();
   if (!report.ok) {
-    setSnapshot(snapshot_->stamp);  // the last good state, with the report of what went wrong
     setMode(Mode::fault, report.message);
     abortSteps("a fault: " + report.message);
     return;
   }
-  setSnapshot(clock_.tick());
-  listener_.onState(snapshot_);
-  if (has_applied) listener_.onStimuli(*snapshot_);
   if (is_paced) pacer_.stepEnded(std::chrono::steady_clock::now());
-  if (simulation_.finished() && mode_ != Mode::finished) {
-    setMode(Mode::finished, "the duration of the scenario is reached");
+  if (run_.finished() && mode_ != Mode::finished) {
+    setMode(Mode::finished, kFinished);
   } else {
     showStatus();
   }
@@ -232,37 +207,13 @@ void SimulationLoop::setMode(Mode mode, const std::string& message) {
   showStatus();
 }
 
-void SimulationLoop::showFirstState() {
-  setSnapshot(clock_.tick());
-  listener_.onState(snapshot_);
-  showApplied();
-  listener_.onStimuli(*snapshot_);
-}
-
-void SimulationLoop::setSnapshot(const ros::Time& stamp) {
-  SnapshotPtr snapshot = takeSnapshot(simulation_, stamp, epoch_);
-  const std::lock_guard<std::mutex> lock(shown_mutex_);
-  snapshot_ = std::move(snapshot);
-}
-
-bool SimulationLoop::showApplied() {
-  const std::vector<simulation::AppliedCommand> applied = simulation_.takeApplied();
-  for (const simulation::AppliedCommand& command : applied) {
-    if (std::holds_alternative<simulation::StimulusCommand>(command.command)) {
-      counters_.count(command.refusal.empty() ? StimulusFate::accepted : StimulusFate::not_applicable);
-    }
-    listener_.onCommand(command, *snapshot_);
-  }
-  return !applied.empty();
-}
-
 void SimulationLoop::showStatus() {
-  const LoopStatus status{mode_, message_, pacer_.achievedFactor(), pacer_.overruns()};
+  const RunStatus status{mode_, message_, pacer_.achievedFactor(), pacer_.overruns()};
   {
-    const std::lock_guard<std::mutex> lock(shown_mutex_);
+    const std::lock_guard<std::mutex> lock(status_mutex_);
     status_ = status;
   }
-  listener_.onStatus(status, *snapshot_);
+  listener_.onStatus(status, *run_.snapshot());
 }
 
 }  // namespace sensory_growth::node

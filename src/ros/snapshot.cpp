@@ -1,5 +1,7 @@
 #include "sensory_growth/ros/snapshot.h"
 
+#include "sensory_growth/simulation/checksum.h"
+
 namespace sensory_growth::node {
 
 SnapshotPtr takeSnapshot(const simulation::Simulation& simulation, const ros::Time& stamp, std::uint32_t epoch) {
@@ -8,6 +10,7 @@ SnapshotPtr takeSnapshot(const simulation::Simulation& simulation, const ros::Ti
   snapshot->step_index = simulation.stepIndex();
   snapshot->epoch = epoch;
   snapshot->growth_time = simulation.time();
+  snapshot->checksum = simulation::checksum(simulation);
   snapshot->gravity = simulation.gravity();
   snapshot->environment = simulation.environment();
   snapshot->organs.reserve(simulation.organs().size());

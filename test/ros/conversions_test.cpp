@@ -15,6 +15,7 @@ using ::testing::SizeIs;
 
 TEST(OrganStateMessage, HoldsOneEntryForEachVertexElementAndBend) {
   const auto snapshot = testing::snapshotOf("stem");
+  snapshot->organs[0].rod.elements.back().age = 50.0;
   const OrganState message = toMessage(snapshot->organs[0], *snapshot, "world");
   EXPECT_EQ(message.header.stamp, ros::Time(7, 500000000));
   EXPECT_EQ(message.header.frame_id, "world");
@@ -27,6 +28,7 @@ TEST(OrganStateMessage, HoldsOneEntryForEachVertexElementAndBend) {
   EXPECT_THAT(message.radius, ElementsAre(1e-3, 1e-3, 1e-3, 1e-3));
   EXPECT_THAT(message.strain, SizeIs(4));
   EXPECT_THAT(message.growth_rate, ElementsAre(0.0, 1e-6, 2e-6, 4e-6));
+  EXPECT_THAT(message.age, ElementsAre(0.0, 0.0, 0.0, 50.0));
   EXPECT_THAT(message.curvature, SizeIs(4));
   EXPECT_THAT(message.rest_curvature, SizeIs(4));
   EXPECT_NEAR(message.rest_arc_length.back(), 0.04, 1e-15);
@@ -183,6 +185,40 @@ TEST(AppliedCommandMessage, HoldsEveryKindOfCommand) {
   const AppliedCommand turned = toMessage(simulation::AppliedCommand{9, toCommand(turn), ""}, *snapshot, "world");
   EXPECT_EQ(turned.kind, AppliedCommand::GRAVITY);
   EXPECT_EQ(turned.vector.y, -1.5);
+}
+
+TEST(AppliedCommandMessage, IsTheCommandAgain) {
+  const auto snapshot = testing::snapshotOf("stem");
+  const auto again = [&](const simulation::Command& command) {
+    return toCommand(toMessage(simulation::AppliedCommand{7, command, ""}, *snapshot, "world")).value();
+  };
+  for (const auto kind : {simulation::StimulusKind::point_source, simulation::StimulusKind::light_direction}) {
+    const simulation::StimulusCommand given{kind, simulation::StimulusOperation::change, "one", {1.0, 2.0, 3.0}, 4.0};
+    const auto stimulus = std::get<simulation::StimulusCommand>(again(given));
+    EXPECT_EQ(stimulus.kind, kind);
+    EXPECT_EQ(stimulus.operation, given.operation);
+    EXPECT_EQ(stimulus.id, "one");
+    EXPECT_EQ(stimulus.vector, given.vector);
+    EXPECT_EQ(stimulus.strength, 4.0);
+  }
+  const auto set =
+      std::get<simulation::ParameterCommand>(again(simulation::ParameterCommand{"all", "growth.rate", 0.5}));
+  EXPECT_EQ(set.organ, "all");
+  EXPECT_EQ(set.name, "growth.rate");
+  EXPECT_EQ(set.value, 0.5);
+  const rod::Vector3 tilted(1.0, -2.0, 3.0);
+  EXPECT_EQ(std::get<simulation::GravityCommand>(again(simulation::GravityCommand{tilted})).acceleration, tilted);
+}
+
+TEST(AppliedCommandMessage, NeedsAKnownKindAndOperation) {
+  AppliedCommand message;
+  EXPECT_FALSE(toCommand(message));
+  message.kind = AppliedCommand::POINT_SOURCE;
+  EXPECT_FALSE(toCommand(message));
+  message.operation = AppliedCommand::ADD;
+  EXPECT_TRUE(toCommand(message));
+  message.kind = 5;
+  EXPECT_FALSE(toCommand(message));
 }
 
 }  // namespace

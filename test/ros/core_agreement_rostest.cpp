@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "ros/node_under_test.h"
+#include "sensory_growth/ros/conversions.h"
 
 namespace sensory_growth::node::testing {
 namespace {
@@ -24,20 +25,20 @@ TEST(CoreAgreement, StatesAreThoseOfTheCoreAlone) {
   follow(0, 10);
   const AppliedCommand sun = node.send(lights, light(LightDirection::ADD, "sun", {3.0, 1.0, 2.0}, 0.7));
   EXPECT_EQ(sun.step_index, 10u);
-  alone.apply(commandOf(sun));
+  alone.apply(toCommand(sun).value());
   follow(10, 40);
   const AppliedCommand lit = node.send(lamps, lamp(PointSource::ADD, "lamp", {-0.1, 0.05, 0.1}, 1.3));
   EXPECT_EQ(lit.step_index, 40u);
   EXPECT_EQ(lit.vector.x, -0.1);
-  alone.apply(commandOf(lit));
+  alone.apply(toCommand(lit).value());
   follow(40, 50);
   const SetParameter::Response set = node.setParameter("shoot", "sensitivities.gravity", -0.4);
   EXPECT_TRUE(set.success) << set.message;
   EXPECT_EQ(set.step_index, 50u);
   const SetGravity::Response turned = node.setGravity({9.81, 0.0, 0.0});
   EXPECT_TRUE(turned.success) << turned.message;
-  alone.apply(commandOf(node.applied(2)));
-  alone.apply(commandOf(node.applied(3)));
+  alone.apply(toCommand(node.applied(2)).value());
+  alone.apply(toCommand(node.applied(3)).value());
   EXPECT_EQ(alone.gravity(), rod::Vector3(9.81, 0.0, 0.0));
   follow(50, 70);
 

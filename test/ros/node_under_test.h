@@ -210,24 +210,6 @@ class NodeUnderTest {
   std::vector<ros::Subscriber> subscribers_;  // last, so that callbacks end before what they touch
 };
 
-/// The command that was echoed; stimuli are added.
-inline simulation::Command commandOf(const AppliedCommand& applied) {
-  const rod::Vector3 vector(applied.vector.x, applied.vector.y, applied.vector.z);
-  const auto added = [&](simulation::StimulusKind kind) {
-    return simulation::StimulusCommand{kind, simulation::StimulusOperation::add, applied.id, vector, applied.strength};
-  };
-  switch (applied.kind) {
-    case AppliedCommand::POINT_SOURCE:
-      return added(simulation::StimulusKind::point_source);
-    case AppliedCommand::LIGHT_DIRECTION:
-      return added(simulation::StimulusKind::light_direction);
-    case AppliedCommand::PARAMETER:
-      return simulation::ParameterCommand{applied.id, applied.parameter, applied.value};
-    default:
-      return simulation::GravityCommand{vector};
-  }
-}
-
 /// Expects the positions of the message to be those of the first organ, bit for bit.
 inline void expectSame(const OrganState& state, const simulation::Simulation& alone) {
   const rod::Rod& rod = alone.organs().front().rod();

@@ -13,6 +13,7 @@
 #include "ros/bag_contents.h"
 #include "ros/marker_lint.h"
 #include "ros/node_under_test.h"
+#include "sensory_growth/ros/conversions.h"
 
 namespace sensory_growth::node::testing {
 namespace {
@@ -139,7 +140,7 @@ TEST(Recording, ReplaysToTheSameNumbers) {
     }
     expectSame(state, replay);
     for (const AppliedCommand& command : applied) {
-      if (command.step_index == state.step_index) replay.apply(commandOf(command));
+      if (command.step_index == state.step_index) replay.apply(toCommand(command).value());
     }
   }
   std::filesystem::remove(stopped.path);

@@ -44,6 +44,9 @@ AppliedCommand toMessage(const simulation::AppliedCommand& applied, const Snapsh
 std::optional<simulation::StimulusCommand> toCommand(const PointSource& message);
 std::optional<simulation::StimulusCommand> toCommand(const LightDirection& message);
 
+/// The command that was echoed; nothing if its kind or operation is unknown.
+std::optional<simulation::Command> toCommand(const AppliedCommand& message);
+
 /// Places or moves the lamp `names::kClickedLamp`.
 simulation::StimulusCommand toCommand(const geometry_msgs::PointStamped& message);
 

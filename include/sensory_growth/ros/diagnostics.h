@@ -19,7 +19,7 @@ namespace sensory_growth::node {
 /// failed.
 void reportRelaxation(const OrganSnapshot& organ, diagnostic_updater::DiagnosticStatusWrapper& status);
 
-void reportLoop(const LoopStatus& loop, const Snapshot& snapshot, diagnostic_updater::DiagnosticStatusWrapper& status);
+void reportLoop(const RunStatus& loop, const Snapshot& snapshot, diagnostic_updater::DiagnosticStatusWrapper& status);
 
 /// WARN while refusals are recent, that is, since the previous report, of which `refused_before` is the count.
 void reportStimuli(const StimulusCounters& counters, std::uint64_t refused_before,
@@ -29,7 +29,7 @@ class Diagnostics {
  public:
   struct Sources {
     std::function<SnapshotPtr()> snapshot;
-    std::function<LoopStatus()> loop;
+    std::function<RunStatus()> loop;
     std::function<std::string()> recording;  ///< path of the open bag, or empty
     std::vector<std::string> organs;
     const StimulusCounters* counters = nullptr;

@@ -9,7 +9,6 @@
 #include <ros/wall_timer.h>
 
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "sensory_growth/Command.h"
@@ -20,6 +19,7 @@
 #include "sensory_growth/StopRecording.h"
 #include "sensory_growth/ros/clock.h"
 #include "sensory_growth/ros/diagnostics.h"
+#include "sensory_growth/ros/loaded_scenario.h"
 #include "sensory_growth/ros/parameters.h"
 #include "sensory_growth/ros/publishers.h"
 #include "sensory_growth/ros/signals.h"
@@ -28,16 +28,6 @@
 #include "sensory_growth/ros/stimulus_intake.h"
 
 namespace sensory_growth::node {
-
-/// A scenario as read and as parsed, with the stimuli of the protocol added.
-struct LoadedScenario {
-  simulation::Scenario scenario;
-  Sources sources;
-};
-
-/// Reads the files that the parameters name and checks what depends on both. Appends what is wrong to `problems`; the
-/// result is meaningful only if nothing was.
-LoadedScenario loadScenario(const Parameters& parameters, std::vector<std::string>& problems);
 
 class Node {
  public:

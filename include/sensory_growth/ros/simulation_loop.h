@@ -18,25 +18,11 @@
 #include "sensory_growth/ros/clock.h"
 #include "sensory_growth/ros/command_queue.h"
 #include "sensory_growth/ros/pacer.h"
-#include "sensory_growth/ros/snapshot.h"
+#include "sensory_growth/ros/run.h"
 #include "sensory_growth/ros/stimulus_counters.h"
 #include "sensory_growth/simulation/simulation.h"
 
 namespace sensory_growth::node {
-
-enum class Mode {
-  paused,
-  running,
-  finished,  ///< the duration of the scenario is reached; step and reset still work
-  fault,     ///< a step failed; the last good state is kept and reset recovers
-};
-
-struct LoopStatus {
-  Mode mode = Mode::paused;
-  std::string message;  ///< what is wrong; empty if nothing is
-  double achieved_real_time_factor = 0.0;
-  std::uint64_t overruns = 0;
-};
 
 /// What a service answers.
 struct Answer {
@@ -44,23 +30,6 @@ struct Answer {
   std::string message;
   std::uint64_t step_index = 0;
   ros::Time stamp;
-};
-
-/// Sees everything that happens, in order, on the thread of the loop.
-class LoopListener {
- public:
-  virtual ~LoopListener() = default;
-
-  /// A new state: the first, after a step, or after a reset.
-  virtual void onState(const SnapshotPtr& snapshot) = 0;
-
-  /// A command was taken while the state of `snapshot` was current.
-  virtual void onCommand(const simulation::AppliedCommand& command, const Snapshot& snapshot) = 0;
-
-  /// Gravity and the stimuli in force are those of `snapshot`.
-  virtual void onStimuli(const Snapshot& snapshot) = 0;
-
-  virtual void onStatus(const LoopStatus& status, const Snapshot& snapshot) = 0;
 };
 
 class SimulationLoop {
@@ -76,7 +45,7 @@ class SimulationLoop {
 
   /// Shows the first state to the listener. The references must outlive the loop.
   SimulationLoop(simulation::Simulation simulation, const Settings& settings, Clock& clock, StimulusCounters& counters,
-                 LoopListener& listener);
+                 RunListener& listener);
   ~SimulationLoop();
 
   /// Starts the thread.
@@ -102,8 +71,8 @@ class SimulationLoop {
   /// Shows the status again soon, because something that it counts has changed.
   void refreshStatus();
 
-  SnapshotPtr snapshot() const;
-  LoopStatus status() const;
+  SnapshotPtr snapshot() const { return run_.snapshot(); }
+  RunStatus status() const;
 
  private:
   using Reply = std::shared_ptr<std::promise<Answer>>;
@@ -128,28 +97,22 @@ class SimulationLoop {
   void advance();
   void abortSteps(const std::string& why);
   void setMode(Mode mode, const std::string& message = "");
-  void showFirstState();
-  void setSnapshot(const ros::Time& stamp);
-  bool showApplied();
   void showStatus();
 
   // Of the loop's thread alone.
-  simulation::Simulation simulation_;
   Clock& clock_;
-  StimulusCounters& counters_;
-  LoopListener& listener_;
+  RunListener& listener_;
+  Run run_;
   Pacer pacer_;
   Mode mode_;
   std::string message_;
-  std::uint32_t epoch_ = 0;
   std::optional<StepRequest> step_request_;
 
   CommandQueue queue_;
   std::atomic<bool> refresh_waits_{false};
 
-  mutable std::mutex shown_mutex_;  // guards what follows; nothing else is locked while it is held
-  SnapshotPtr snapshot_;
-  LoopStatus status_;
+  mutable std::mutex status_mutex_;  // guards what follows; nothing else is locked while it is held
+  RunStatus status_;
 
   std::thread thread_;
 };

@@ -32,6 +32,7 @@ struct Snapshot {
   std::uint64_t step_index = 0;
   std::uint32_t epoch = 0;                      ///< resets so far
   double growth_time = 0.0;                     ///< [s]
+  std::uint64_t checksum = 0;                   ///< of the state (simulation/checksum.h)
   rod::Vector3 gravity = rod::Vector3::Zero();  ///< [m/s^2]
   growth::Environment environment;
   std::vector<OrganSnapshot> organs;

@@ -1,0 +1,121 @@
+#pragma once
+
+/// Says in messages what happens in a run. Each message is built once and goes to whoever derives from this and, while
+/// one is open, to the bag. Needs no master.
+
+#include <std_msgs/String.h>
+#include <tf2_msgs/TFMessage.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "sensory_growth/AppliedCommand.h"
+#include "sensory_growth/OrganState.h"
+#include "sensory_growth/Status.h"
+#include "sensory_growth/Stimuli.h"
+#include "sensory_growth/ros/markers.h"
+#include "sensory_growth/ros/parameters.h"
+#include "sensory_growth/ros/recording.h"
+#include "sensory_growth/ros/run.h"
+#include "sensory_growth/ros/stimulus_counters.h"
+#include "sensory_growth/ros/transforms.h"
+
+namespace sensory_growth::node {
+
+/// The texts a run started from.
+struct Sources {
+  std::string node;  ///< its name, such as "/sensory_growth"
+  std::string scenario_name;
+  std::string scenario;    ///< YAML as read
+  std::string protocol;    ///< YAML as read; empty: none
+  std::string parameters;  ///< YAML of the parameters in effect
+  std::vector<std::string> organs;
+};
+
+/// Anything that is published.
+using Message = std::variant<boost::shared_ptr<const Status>, boost::shared_ptr<const Stimuli>,
+                             boost::shared_ptr<const AppliedCommand>, boost::shared_ptr<const OrganState>,
+                             boost::shared_ptr<const std_msgs::String>, boost::shared_ptr<const tf2_msgs::TFMessage>,
+                             boost::shared_ptr<const visualization_msgs::MarkerArray>>;
+
+class Reporter : public RunListener {
+ public:
+  /// Makes the full name of a topic from one of ros/names.h.
+  using Resolve = std::function<std::string(const std::string&)>;
+
+  /// `counters` must outlive the reporter.
+  Reporter(const Parameters& parameters, const Sources& sources, const StimulusCounters& counters,
+           const Resolve& resolve);
+
+  void onState(const SnapshotPtr& snapshot) override;
+  void onCommand(const simulation::AppliedCommand& command, const Snapshot& snapshot) override;
+  void onStimuli(const Snapshot& snapshot) override;
+  void onStatus(const RunStatus& status, const Snapshot& snapshot) override;
+
+  /// Opens a bag and writes what is needed to run the same again. On the thread of the run. `file` may be empty.
+  /// Returns why it failed, or nothing.
+  std::optional<std::string> startRecording(const std::string& file, const Snapshot& snapshot);
+
+  /// Hands the open bag over, to be finished elsewhere; null if there is none. On the thread of the run.
+  std::unique_ptr<Recording> takeRecording();
+
+  /// Path of the bag being written; empty if there is none. From any thread.
+  std::string recordingPath() const;
+
+ protected:
+  struct Topic {
+    std::string name;  // resolved
+    bool is_latched = false;
+  };
+
+  struct Topics {
+    Topic status, stimuli, applied, scenario, protocol, parameters, markers, tf, tf_static;
+    std::map<std::string, Topic> states;  // by organ
+  };
+
+  /// Called on the thread of the run with every message but the markers, once.
+  virtual void publish(const Topic& topic, const Message& message) = 0;
+
+  /// Called when the bag had to be closed early.
+  virtual void warn(const RecordingSummary& summary) = 0;
+
+  static Message textMessage(const std::string& text);
+
+  const Parameters parameters_;
+  const Sources sources_;
+  const Topics topics_;
+  std::optional<MarkerSettings> marker_settings_;  // set with the first state, constant afterwards
+
+ private:
+  static Topics makeTopics(const std::vector<std::string>& organs, const Resolve& resolve);
+  void send(const Topic& topic, const ros::Time& stamp, const Message& message);
+  void record(const Topic& topic, const ros::Time& stamp, const Message& message);
+  void sendTransforms(const Snapshot& snapshot);
+  void recordPreamble(const Snapshot& snapshot);
+  void recordMarkers(const Snapshot& snapshot);
+  void dropFailedRecording();
+  void setRecording(std::unique_ptr<Recording> recording);
+  std::string datedFile() const;
+
+  const FrameSettings frames_;
+  const StimulusCounters& counters_;
+
+  // Of the run's thread alone.
+  std::unique_ptr<Recording> recording_;
+  std::optional<MarkerStream> recorded_markers_;
+  std::vector<Message> history_;  // commands since the last reset
+  std::uint32_t history_epoch_ = 0;
+  ros::Time last_tf_stamp_;
+
+  mutable std::mutex path_mutex_;
+  std::string recording_path_;
+};
+
+}  // namespace sensory_growth::node

@@ -1,0 +1,89 @@
+#pragma once
+
+/// A simulation that is listened to: every state, command and change of stimuli is shown as it happens, in order.
+
+#include <ros/time.h>
+
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <string>
+
+#include "sensory_growth/ros/snapshot.h"
+#include "sensory_growth/ros/stimulus_counters.h"
+#include "sensory_growth/simulation/simulation.h"
+
+namespace sensory_growth::node {
+
+enum class Mode {
+  paused,
+  running,
+  finished,  ///< the duration of the scenario is reached; step and reset still work
+  fault,     ///< a step failed; the last good state is kept and reset recovers
+};
+
+inline constexpr char kFinished[] = "the duration of the scenario is reached";
+
+struct RunStatus {
+  Mode mode = Mode::paused;
+  std::string message;  ///< what is wrong; empty if nothing is
+  double achieved_real_time_factor = 0.0;
+  std::uint64_t overruns = 0;
+};
+
+class RunListener {
+ public:
+  virtual ~RunListener() = default;
+
+  /// A new state: the first, after a step, or after a reset.
+  virtual void onState(const SnapshotPtr& snapshot) = 0;
+
+  /// A command was taken while the state of `snapshot` was current.
+  virtual void onCommand(const simulation::AppliedCommand& command, const Snapshot& snapshot) = 0;
+
+  /// Gravity and the stimuli in force are those of `snapshot`.
+  virtual void onStimuli(const Snapshot& snapshot) = 0;
+
+  virtual void onStatus(const RunStatus& status, const Snapshot& snapshot) = 0;
+};
+
+/// Knows neither threads nor clocks. Of its functions only snapshot() may be called from any thread.
+class Run {
+ public:
+  /// Gives the stamp of a new state, later than all before.
+  using Stamps = std::function<ros::Time()>;
+
+  /// Shows the first state. The references must outlive the run; `epoch` counts the resets before.
+  Run(simulation::Simulation simulation, Stamps next_stamp, StimulusCounters& counters, RunListener& listener,
+      std::uint32_t epoch = 0);
+
+  /// Takes a step and shows where it led, with the commands of the protocol that have fallen due. If it fails, the last
+  /// good state stays, with the report of what went wrong, and no state is shown.
+  simulation::StepReport step();
+
+  /// Applies a command now and shows what became of it.
+  simulation::AppliedCommand apply(const simulation::Command& command);
+
+  /// Back to step 0, which is shown as a new state.
+  void reset();
+
+  bool finished() const { return simulation_.finished(); }
+
+  SnapshotPtr snapshot() const;
+
+ private:
+  void showFirstState();
+  void setSnapshot(const ros::Time& stamp);
+  bool showApplied();
+
+  simulation::Simulation simulation_;
+  const Stamps next_stamp_;
+  StimulusCounters& counters_;
+  RunListener& listener_;
+  std::uint32_t epoch_;
+
+  mutable std::mutex mutex_;  // guards what follows; nothing else is locked while it is held
+  SnapshotPtr snapshot_;
+};
+
+}  // namespace sensory_growth::node

@@ -1,0 +1,87 @@
+#include "sensory_growth/ros/run.h"
+
+#include <exception>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace sensory_growth::node {
+namespace {
+
+simulation::StepReport stepGuarded(simulation::Simulation& simulation) {
+  try {
+    return simulation.step();
+  } catch (const std::exception& error) {
+    return {false, error.what()};
+  }
+}
+
+}  // namespace
+
+Run::Run(simulation::Simulation simulation, Stamps next_stamp, StimulusCounters& counters, RunListener& listener,
+         std::uint32_t epoch)
+    : simulation_(std::move(simulation)),
+      next_stamp_(std::move(next_stamp)),
+      counters_(counters),
+      listener_(listener),
+      epoch_(epoch) {
+  showFirstState();
+}
+
+simulation::StepReport Run::step() {
+  simulation::StepReport report = stepGuarded(simulation_);
+  const bool has_applied = showApplied();  // taken while the state before this step was current
+  if (!report.ok) {
+    setSnapshot(snapshot_->stamp);
+    return report;
+  }
+  setSnapshot(next_stamp_());
+  listener_.onState(snapshot_);
+  if (has_applied) listener_.onStimuli(*snapshot_);
+  return report;
+}
+
+simulation::AppliedCommand Run::apply(const simulation::Command& command) {
+  simulation::AppliedCommand applied = simulation_.apply(command);
+  showApplied();
+  setSnapshot(snapshot_->stamp);
+  listener_.onStimuli(*snapshot_);
+  return applied;
+}
+
+void Run::reset() {
+  simulation_.reset();
+  ++epoch_;
+  showFirstState();
+}
+
+SnapshotPtr Run::snapshot() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return snapshot_;
+}
+
+void Run::showFirstState() {
+  setSnapshot(next_stamp_());
+  listener_.onState(snapshot_);
+  showApplied();
+  listener_.onStimuli(*snapshot_);
+}
+
+void Run::setSnapshot(const ros::Time& stamp) {
+  SnapshotPtr snapshot = takeSnapshot(simulation_, stamp, epoch_);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  snapshot_ = std::move(snapshot);
+}
+
+bool Run::showApplied() {
+  const std::vector<simulation::AppliedCommand> applied = simulation_.takeApplied();
+  for (const simulation::AppliedCommand& command : applied) {
+    if (std::holds_alternative<simulation::StimulusCommand>(command.command)) {
+      counters_.count(command.refusal.empty() ? StimulusFate::accepted : StimulusFate::not_applicable);
+    }
+    listener_.onCommand(command, *snapshot_);
+  }
+  return !applied.empty();
+}
+
+}  // namespace sensory_growth::node
