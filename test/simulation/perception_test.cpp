@@ -260,16 +260,18 @@ double largestResponse(const std::vector<Pulse>& pulses, double duration) {
 }
 
 TEST(LightPulses, OfEqualDoseBendAlike) {
-  // cases.md C6 within 1 %; and the same equations by an independent integration of first order in Python (step
-  // 0.00125, 400 elements), whose error is below 1e-4 of the angle.
+  // The coarse figures of the case within 1 %, and an independent integration of first order in Python (step 0.00125,
+  // 400 elements), whose error is below 1e-4 of the angle. The difference of 0.7 % is the discretisation of the coarse
+  // ones: 100 elements of which the first is frozen to the base, Euler steps of 0.005 and the memory as the sum of
+  // step * exp(-lag) * sensed, the present included, give 70.855, 71.123 and 71.135 degrees to the last digit.
   const struct {
     double intensity;
     int steps;
-    double published, integrated;
+    double coarse, integrated;
   } doses[] = {{2.0, 50, 70.855, 71.3378}, {10.0, 10, 71.123, 71.6071}, {50.0, 2, 71.135, 71.6192}};
   for (const auto& dose : doses) {
     const double degrees = largestResponse({{0.0, dose.steps * kC6Step, dose.intensity}}, 3.0) * 180.0 / M_PI;
-    EXPECT_NEAR(degrees, dose.published, 0.01 * dose.published) << dose.intensity;
+    EXPECT_NEAR(degrees, dose.coarse, 0.01 * dose.coarse) << dose.intensity;
     EXPECT_NEAR(degrees, dose.integrated, 1e-3 * dose.integrated) << dose.intensity;
   }
 }
