@@ -103,6 +103,12 @@ double Perception::shortestDelay() const {
   return shortest;
 }
 
+double Perception::nextJump(double time) const {
+  double next = std::numeric_limits<double>::infinity();
+  for (const Pathway& pathway : pathways_) next = std::min(next, pathway.memory.nextJump(time));
+  return next;
+}
+
 void Perception::setMark(Mark& mark) const {
   mark.clear();
   for (const Pathway& pathway : pathways_) mark.push_back(pathway.memory.size());

@@ -68,7 +68,7 @@ TEST(AgingOrgan, SinksUnderTheWeightItAdds) {
 }
 
 /// Tip of an organ that grows, rights itself and ages, with stress coupling or without.
-Vector3 agingTip(int steps, bool coupled, const growth::Proprioception& proprioception) {
+Vector3 agingTip(int steps, bool coupled, const growth::Proprioception& proprioception, double torque) {
   Scenario scenario = agingScenario(0.8 / steps, true, true);
   OrganScenario& organ = scenario.organs.front();
   organ.section = support::section(0.05, 1.0, 1.5);
@@ -76,6 +76,7 @@ Vector3 agingTip(int steps, bool coupled, const growth::Proprioception& proprioc
   organ.senses.gravity = 0.15;
   organ.bending.proprioception = proprioception;
   organ.aging->young_modulus->mature = 3.0 * organ.section.young_modulus;
+  organ.loads.tip_couple.z() = torque;
   if (coupled) {
     // Leaning, so that all of it is pressed and neither the factor nor the clock comes to the bounds where they have
     // kinks.
@@ -88,8 +89,8 @@ Vector3 agingTip(int steps, bool coupled, const growth::Proprioception& proprioc
   return tip(grown(scenario, steps));
 }
 
-void expectSecondOrder(bool coupled, const growth::Proprioception& proprioception) {
-  const auto tipAfter = [&](int steps) { return agingTip(steps, coupled, proprioception); };
+void expectSecondOrder(bool coupled, const growth::Proprioception& proprioception, double torque = 0.0) {
+  const auto tipAfter = [&](int steps) { return agingTip(steps, coupled, proprioception, torque); };
   const Vector3 tips[] = {tipAfter(40), tipAfter(80), tipAfter(160), tipAfter(320)};
   EXPECT_NEAR(order((tips[0] - tips[1]).norm(), (tips[1] - tips[2]).norm()), 2.0, 0.1);
   EXPECT_NEAR(order((tips[1] - tips[2]).norm(), (tips[2] - tips[3]).norm()), 2.0, 0.1);
@@ -105,6 +106,11 @@ TEST(AgingOrgan, IsSecondOrderInTimeUnderAnyGrowthLaw) {
 TEST(AgingOrgan, IsSecondOrderInTimeWithStressCoupling) {
   expectSecondOrder(true, {});
   expectSecondOrder(true, {0.02, 0.01, 0.03, Eigen::Vector2d::Zero()});
+}
+
+TEST(AgingOrgan, IsSecondOrderInTimeWhereTwistIsDepositedAndDiluted) {
+  expectSecondOrder(false, {0.03, 0.0, 0.0, Eigen::Vector2d::Zero()}, 0.4);
+  expectSecondOrder(true, {0.02, 0.01, 0.03, Eigen::Vector2d::Zero()}, 0.4);
 }
 
 TEST(AgingOrgan, AgesBehindItsGrowthZone) {

@@ -289,8 +289,9 @@ TEST(LightPulses, AddUpLessTheFurtherTheyAreApart) {
 }
 
 TEST(LightPulses, ThatSwitchAfterADelayLoseNoOrder) {
-  // Rest curvature for a delayed pulse from 0.2 to 0.5 in the first order of the angle: dose times sensitivity.
-  const auto angle = [](double step) {
+  // Rest curvature for a delayed pulse from 0.2 to 0.5 in the first order of the angle: dose until now times
+  // sensitivity. Delays that are no number of steps make what is perceived jump within a step.
+  const auto angle = [](double step, double delay) {
     Scenario scenario = kinematicScenario(step, 4);
     OrganScenario& organ = scenario.organs.front();
     organ.base.frame.setIdentity();
@@ -298,13 +299,17 @@ TEST(LightPulses, ThatSwitchAfterADelayLoseNoOrder) {
     organ.senses.light_direction = 1e-4 * kRadius;
     organ.sensing.resize(1);
     organ.sensing[0].cues = {Cue::light_direction};
-    organ.sensing[0].memory = growth::Delay{0.4};
+    organ.sensing[0].memory = growth::Delay{delay};
     scenario.protocol = {
         {0.2, StimulusCommand{StimulusKind::light_direction, StimulusOperation::add, "lamp", Vector3::UnitX(), 1.0}},
         {0.5, StimulusCommand{StimulusKind::light_direction, StimulusOperation::remove, "lamp", Vector3::Zero(), 1.0}}};
     return tipAngles(scenario, std::lround(1.0 / step)).back();
   };
-  for (const double step : {0.1, 0.05}) EXPECT_NEAR(angle(step), 0.3e-4, 1e-11) << step;
+  for (const double step : {0.1, 0.05}) {
+    for (const double delay : {0.4, 0.437, 0.637, M_SQRT1_2}) {
+      EXPECT_NEAR(angle(step, delay), std::min(0.3, 0.8 - delay) * 1e-4, 1e-11) << step << ", " << delay;
+    }
+  }
 }
 
 }  // namespace
