@@ -68,14 +68,17 @@ const OrganReport& Organ::advance(double dt, const growth::Environment& environm
     const double limit = std::min(longestPart(environment, time), longest_allowed);
     if (!(limit >= smallest)) return giveUp(OrganFault::step_limits);
     // A remainder is cut into equal parts, so that none is a sliver.
-    const double parts = std::max(1.0, std::ceil(remaining / limit * (1.0 - 1e-12)));
-    const double part = remaining / parts;
+    // What is perceived may jump on the way; no part reaches across.
+    const double jump = perception_.nextJump(time) - time;
+    const double stretch = jump > smallest && jump < remaining ? jump : remaining;
+    const double parts = std::max(1.0, std::ceil(stretch / limit * (1.0 - 1e-12)));
+    const double part = stretch / parts;
 
     if (!startsWithStep()) before_part_ = rod_;
     const OrganFault fault = growAndRelax(part, environment, time);
     if (fault == OrganFault::too_many_elements) return giveUp(fault);
     if (fault == OrganFault::none) {
-      remaining = parts > 1.0 ? remaining - part : 0.0;
+      remaining = part < remaining ? remaining - part : 0.0;
       longest_allowed = dt;
       ++report_.substeps;
       if (perception_.hasMemory()) {
@@ -124,12 +127,14 @@ void Organ::begin() {
 /// Expects rates_, factors_ and drive_ at the start of the part, as longestPart() leaves them.
 OrganFault Organ::growAndRelax(double dt, const growth::Environment& environment, double time) {
   const growth::GrowthStrain& strain = growthStrain(dt);
-  if (scenario_.elongation) growth::elongate(rod_, strain, scenario_.twist_transport, drive_);
-  // Half of the aging comes before the growth of the rest curvature and half after, so that neither sees the other
-  // late.
+  // Half of the aging comes before the growth of the rest state and half after, so that neither sees the other late.
   if (scenario_.aging) deposition_.begin(rod_.size());
   growOlder(strain, dt, 0.5);
-  if (scenario_.bending.rotation) growth::turn(rod_, *scenario_.bending.rotation, rates_, dt, drive_);
+  if (scenario_.elongation) growth::elongate(rod_, strain, scenario_.twist_transport, drive_);
+  if (scenario_.bending.rotation) {
+    growth::elementRates(scenario_.profile, factors_, rod_, new_rates_);
+    growth::turn(rod_, *scenario_.bending.rotation, rates_, new_rates_, dt, drive_);
+  }
   growth::predict(rod_, scenario_.bending, strain, drive_);
   growOlder(strain, dt, 1.0);
   // Deposition moves the elastic part on its own.

@@ -118,7 +118,7 @@ class Organ {
   growth::Deposition deposition_;
   growth::CueFields cues_;
   std::vector<rod::Vector3> drive_, new_drive_;
-  std::vector<double> rates_;
+  std::vector<double> rates_, new_rates_;
   ElasticResponse response_, response_before_step_;
   bool trend_is_known_ = false;  ///< for the part that is under way
   OrganReport report_, report_before_step_;
