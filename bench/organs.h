@@ -32,6 +32,7 @@ inline simulation::Simulation growingStems(std::size_t organs, std::size_t eleme
     organ.bending.proprioception.intrinsic_length = 1e-4;
     scenario.organs.push_back(organ);
   }
+  using simulation::StimulusCommand;
   using simulation::StimulusKind;
   using simulation::StimulusOperation;
   scenario.protocol = {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/cue_kernels.h"
+
 namespace sensory_growth::growth {
 namespace {
 
@@ -20,6 +22,23 @@ Eigen::Matrix<double, 3, 2> sectionAxes(const rod::Quaternion& q) {
       x2 * q.y() + z2 * q.w(), 1.0 - (x2 * q.x() + z2 * q.z()),      //
       x2 * q.z() - y2 * q.w(), y2 * q.z() + x2 * q.w();
   return axes;
+}
+
+/// Frames and places of the bends from `first` on; the last one again where there are no more.
+void gather(const rod::Rod& rod, std::size_t first, kernels::BendPacket& bends) {
+  const auto put = [](const rod::Quaternion& q, double(&frames)[4][kernels::kBends], std::size_t i) {
+    frames[0][i] = q.w(), frames[1][i] = q.x(), frames[2][i] = q.y(), frames[3][i] = q.z();
+  };
+  for (std::size_t i = 0; i < kernels::kBends; ++i) {
+    const std::size_t j = std::min(first + i, rod.size() - 1);
+    put(j > 0 ? rod.elements[j - 1].frame : rod.base.frame, bends.below, i);
+    put(rod.elements[j].frame, bends.above, i);
+    for (int k = 0; k < 3; ++k) bends.position[k][i] = rod.vertices[j].position[k];
+  }
+}
+
+Eigen::Vector2d component(const kernels::FieldPacket& field, std::size_t i) {
+  return {field.along[0][i], field.along[1][i]};
 }
 
 constexpr double kTurn = 6.283185307179586;
@@ -101,20 +120,52 @@ Eigen::Vector2d CueField::oscillation(double from_apex) const {
   return oscillator.amplitude * Eigen::Vector2d(std::cos(phase), std::sin(phase));
 }
 
-void sense(const Senses& senses, const Environment& environment, double time, const rod::Rod& rod, CueFields& cues) {
-  const CueField field(senses, environment, time);
-  for (SectionField& cue : cues) {
-    cue.resize(rod.size());
-    std::fill_n(cue.begin(), rod.firstBend(), Eigen::Vector2d::Zero());
-  }
-  double from_apex = rod.restLength();
-  for (std::size_t j = 0; j < rod.size(); ++j) {
-    if (j >= rod.firstBend()) {
-      const SectionCues here = field.at({rod.vertices[j].position, rod.bendFrame(j), from_apex});
-      for (std::size_t cue = 0; cue < kCues; ++cue) cues[cue][j] = here[cue];
+void CueField::along(const rod::Rod& rod, CueFields& cues) const {
+  const std::size_t n = rod.size();
+  for (SectionField& cue : cues) cue.assign(n, Eigen::Vector2d::Zero());
+  const auto field = [&cues](Cue cue) { return cues[static_cast<std::size_t>(cue)].data(); };
+  const kernels::CueKernels& loops = kernels::cueKernels();
+  kernels::BendPacket bends;
+  kernels::SectionPacket section;
+  kernels::FieldPacket everywhere;
+  kernels::PullPacket pull;
+  for (std::size_t first = rod.firstBend(); first < n; first += kernels::kBends) {
+    const std::size_t count = std::min(kernels::kBends, n - first);
+    gather(rod, first, bends);
+    loops.section(bends, section);
+    const auto project = [&](Cue cue, const rod::Vector3& vector) {
+      if (vector.isZero(0.0)) return;
+      loops.project(section, {vector.x(), vector.y(), vector.z()}, everywhere);
+      for (std::size_t i = 0; i < count; ++i) field(cue)[first + i] = component(everywhere, i);
+    };
+    project(Cue::gravity, up_);
+    project(Cue::light_direction, towards_lights_);
+    bool are_normal = true;
+    for (const PointSource& source : point_sources_) {
+      const rod::Vector3 place = source.place(later_);
+      const double strength = senses_.point_source * response(source.strength);
+      are_normal = loops.pull(bends, section, {place.x(), place.y(), place.z()}, senses_.softening_length, pull);
+      if (!are_normal) break;
+      for (std::size_t i = 0; i < count; ++i) {
+        field(Cue::point_source)[first + i] +=
+            strength * factor(senses_.distance, pull.distance[i]) * component(pull.direction, i);
+      }
     }
+    for (std::size_t j = first; !are_normal && j < first + count; ++j) {
+      const Eigen::Matrix<double, 3, 2> axes = sectionAxes(rod.bendFrame(j));
+      field(Cue::point_source)[j] = axes.transpose() * towardsPointSources(rod.vertices[j].position);
+    }
+  }
+  if (senses_.oscillator.amplitude == 0.0) return;
+  double from_apex = rod.restLength();
+  for (std::size_t j = 0; j < n; ++j) {
+    if (j >= rod.firstBend()) field(Cue::oscillator)[j] = oscillation(from_apex);
     from_apex -= rod.elements[j].rest_length;
   }
+}
+
+void sense(const Senses& senses, const Environment& environment, double time, const rod::Rod& rod, CueFields& cues) {
+  CueField(senses, environment, time).along(rod, cues);
 }
 
 }  // namespace sensory_growth::growth

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -37,6 +38,18 @@ const SectionField& Memory::remember(double time, const std::vector<double>& lab
   const bool repeats = size_ > 0 && samples_[size_ - 1].time == now.time && samples_[size_ - 1].sensed == now.sensed;
   if (!repeats) ++size_;
   return now.states.front();
+}
+
+double Memory::nextJump(double time) const {
+  const auto* pure = std::get_if<Delay>(&kernel_);
+  if (pure && pure->time > 0.0) {
+    for (std::size_t k = 0; k < size_; ++k) {
+      const bool jumps = k > 0 ? samples_[k].time == samples_[k - 1].time : before_start_ == BeforeStart::zero;
+      const double arrival = samples_[k].time + pure->time;
+      if (jumps && arrival - time > kSameTime * std::abs(time)) return arrival;
+    }
+  }
+  return std::numeric_limits<double>::infinity();
 }
 
 void Memory::forgetTheOld() {

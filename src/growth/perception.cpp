@@ -13,6 +13,14 @@ constexpr std::size_t index(Cue cue) { return static_cast<std::size_t>(cue); }
 /// The only label of a sensor: whatever the tissue at its place, it remains the same sensor.
 const std::vector<double> kSensorLabel{0.0};
 
+/// Frame of the cross-section at the base: of a hinge, which turns freely, extrapolated like that of the apex.
+rod::Quaternion baseFrame(const rod::Rod& rod) {
+  if (rod.base_support != rod::BaseSupport::hinged) return rod.bendFrame(0);
+  const rod::Element& first = rod.elements.front();
+  if (rod.size() == 1) return first.frame;
+  return (first.frame * rod::exp(-0.5 * first.rest_length * rod.bends[1].curvature)).normalized();
+}
+
 /// The cues of the bends with those of both ends of the organ, which the bends next to them will need when elements
 /// divide: of the apex, and of a base whose bend has no stiffness and senses nothing for itself.
 void senseAtVertices(const Senses& senses, const Environment& environment, double time, const rod::Rod& rod,
@@ -20,7 +28,7 @@ void senseAtVertices(const Senses& senses, const Environment& environment, doubl
   const CueField field(senses, environment, time);
   const rod::Pose apex = rod.apex();
   const SectionCues at_apex = field.at({apex.position, apex.frame, 0.0});
-  const SectionCues at_base = field.at({rod.vertices.front().position, rod.bendFrame(0), rod.restLength()});
+  const SectionCues at_base = field.at({rod.vertices.front().position, baseFrame(rod), rod.restLength()});
   for (std::size_t cue = 0; cue < kCues; ++cue) {
     vertices[cue] = bends[cue];
     vertices[cue].front() = at_base[cue];
@@ -93,6 +101,12 @@ double Perception::shortestDelay() const {
   double shortest = std::numeric_limits<double>::infinity();
   for (const Pathway& pathway : pathways_) shortest = std::min(shortest, delay(pathway.route.memory));
   return shortest;
+}
+
+double Perception::nextJump(double time) const {
+  double next = std::numeric_limits<double>::infinity();
+  for (const Pathway& pathway : pathways_) next = std::min(next, pathway.memory.nextJump(time));
+  return next;
 }
 
 void Perception::setMark(Mark& mark) const {

@@ -133,13 +133,13 @@ StaticEquilibrium::~StaticEquilibrium() = default;
 StaticEquilibrium::StaticEquilibrium(StaticEquilibrium&&) noexcept = default;
 StaticEquilibrium& StaticEquilibrium::operator=(StaticEquilibrium&&) noexcept = default;
 
-RelaxationReport StaticEquilibrium::approach(rod::Rod& rod, const Loads& loads) {
+RelaxationReport StaticEquilibrium::approach(rod::Rod& rod, const Loads& loads, int iterations) {
   const bool has_energy = loads.surroundings.empty() && loads.tip_couple.isZero(0.0);
   if (!has_energy || !hasLengths(rod)) return relax(rod, loads, Stability::decided);
   ReducedEnergy& energy = workspace_->energy;
   energy.assign(rod, loads);
   RelaxationReport report;
-  for (; report.iterations < 2; ++report.iterations) {
+  for (; report.iterations < iterations; ++report.iterations) {
     if (!energy.findStep(0.0)) return relax(rod, loads, Stability::decided);
     energy.tryWholeStepBlindly();
     if (!(energy.largestTurn() < kClose)) return relax(rod, loads, Stability::decided);

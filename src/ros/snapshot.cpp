@@ -1,5 +1,7 @@
 #include "sensory_growth/ros/snapshot.h"
 
+#include <cstddef>
+
 #include "sensory_growth/simulation/checksum.h"
 
 namespace sensory_growth::node {
@@ -14,10 +16,10 @@ SnapshotPtr takeSnapshot(const simulation::Simulation& simulation, const ros::Ti
   snapshot->gravity = simulation.gravity();
   snapshot->environment = simulation.environment();
   snapshot->organs.reserve(simulation.organs().size());
-  for (const simulation::Organ& organ : simulation.organs()) {
-    snapshot->organs.push_back({organ.scenario().id, organ.rod(), organ.growthRates(),
-                                organ.cues(simulation.environment()), organ.energy(),
-                                organ.scenario().loads.surroundings, organ.report()});
+  for (std::size_t i = 0; i < simulation.organs().size(); ++i) {
+    const simulation::Organ& organ = simulation.organs()[i];
+    snapshot->organs.push_back({organ.scenario().id, organ.rod(), organ.growthRates(), organ.cues(simulation.seenBy(i)),
+                                organ.energy(), organ.scenario().loads.surroundings, organ.report()});
     snapshot->organs.back().report.relaxation.lowest_eigenvalue = organ.lowestEigenvalue();
   }
   return snapshot;

@@ -53,7 +53,7 @@ const OrganReport& Organ::advance(double dt, const growth::Environment& environm
   const auto giveUp = [this](OrganFault fault) -> const OrganReport& {
     rod_ = before_step_;
     perception_.takeBack(perception_before_step_);
-    amplification_ = amplification_before_step_;
+    response_ = response_before_step_;
     weight_changed_ = weight_changed_before_step_;
     report_.fault = fault;
     return report_;
@@ -68,14 +68,17 @@ const OrganReport& Organ::advance(double dt, const growth::Environment& environm
     const double limit = std::min(longestPart(environment, time), longest_allowed);
     if (!(limit >= smallest)) return giveUp(OrganFault::step_limits);
     // A remainder is cut into equal parts, so that none is a sliver.
-    const double parts = std::max(1.0, std::ceil(remaining / limit * (1.0 - 1e-12)));
-    const double part = remaining / parts;
+    // What is perceived may jump on the way; no part reaches across.
+    const double jump = perception_.nextJump(time) - time;
+    const double stretch = jump > smallest && jump < remaining ? jump : remaining;
+    const double parts = std::max(1.0, std::ceil(stretch / limit * (1.0 - 1e-12)));
+    const double part = stretch / parts;
 
     if (!startsWithStep()) before_part_ = rod_;
     const OrganFault fault = growAndRelax(part, environment, time);
     if (fault == OrganFault::too_many_elements) return giveUp(fault);
     if (fault == OrganFault::none) {
-      remaining = parts > 1.0 ? remaining - part : 0.0;
+      remaining = part < remaining ? remaining - part : 0.0;
       longest_allowed = dt;
       ++report_.substeps;
       if (perception_.hasMemory()) {
@@ -83,6 +86,7 @@ const OrganReport& Organ::advance(double dt, const growth::Environment& environm
       }
     } else {
       rod_ = beforePart();
+      response_.forgetTrend();
       longest_allowed = 0.5 * part;
       ++report_.retries;
     }
@@ -94,7 +98,7 @@ void Organ::undo() {
   std::swap(rod_, before_step_);
   perception_.takeBack(perception_before_step_);
   report_ = report_before_step_;
-  amplification_ = amplification_before_step_;
+  response_ = response_before_step_;
   weight_changed_ = weight_changed_before_step_;
   has_begun_ = false;
 }
@@ -109,7 +113,7 @@ void Organ::setGravity(const rod::Vector3& gravity) {
 void Organ::begin() {
   before_step_ = rod_;
   report_before_step_ = report_;
-  amplification_before_step_ = amplification_;
+  response_before_step_ = response_;
   weight_changed_before_step_ = weight_changed_;
   perception_.forgetTheOld();
   perception_.setMark(perception_before_step_);
@@ -123,14 +127,19 @@ void Organ::begin() {
 /// Expects rates_, factors_ and drive_ at the start of the part, as longestPart() leaves them.
 OrganFault Organ::growAndRelax(double dt, const growth::Environment& environment, double time) {
   const growth::GrowthStrain& strain = growthStrain(dt);
-  if (scenario_.elongation) growth::elongate(rod_, strain, scenario_.twist_transport, drive_);
-  // Half of the aging comes before the growth of the rest curvature and half after, so that neither sees the other
-  // late.
+  // Half of the aging comes before the growth of the rest state and half after, so that neither sees the other late.
   if (scenario_.aging) deposition_.begin(rod_.size());
   growOlder(strain, dt, 0.5);
-  if (scenario_.bending.rotation) growth::turn(rod_, *scenario_.bending.rotation, rates_, dt, drive_);
+  if (scenario_.elongation) growth::elongate(rod_, strain, scenario_.twist_transport, drive_);
+  if (scenario_.bending.rotation) {
+    growth::elementRates(scenario_.profile, factors_, rod_, new_rates_);
+    growth::turn(rod_, *scenario_.bending.rotation, rates_, new_rates_, dt, drive_);
+  }
   growth::predict(rod_, scenario_.bending, strain, drive_);
   growOlder(strain, dt, 1.0);
+  // Deposition moves the elastic part on its own.
+  trend_is_known_ = method_ == RelaxationMethod::statics && !scenario_.aging && response_.knowsTrend(rod_);
+  if (trend_is_known_) response_.anticipate(rod_, dt);
   const bool moves = method_ == RelaxationMethod::continuous;
   const auto relax_predicted = [&] { return stepping_.second_order ? relaxInPassing() : relax(); };
   if ((moves ? move(dt / growth_per_second_) : relax_predicted()) != OrganFault::none) return OrganFault::relaxation;
@@ -144,12 +153,18 @@ OrganFault Organ::growAndRelax(double dt, const growth::Environment& environment
     if (moves) rod_.rebuild();
     if (!moves && relaxCorrected() != OrganFault::none) return OrganFault::relaxation;
   }
-  amplification_ = elasticAmplification();
+  learnElasticResponse(dt);
 
   const std::size_t divisions = rod::divideLongElements(rod_, scenario_.longest_element, scenario_.division);
   report_.divisions += divisions;
   if (rod_.size() > kMostElements) return OrganFault::too_many_elements;
   return divisions == 0 || moves ? OrganFault::none : relax();
+}
+
+void Organ::learnElasticResponse(double dt) {
+  if (method_ == RelaxationMethod::kinematics || method_ == RelaxationMethod::continuous) return;
+  response_.learn(beforePart(), rod_, dt);
+  if (report_.relaxation.branch_switches > 0) response_.forgetTrend();
 }
 
 const growth::GrowthStrain& Organ::growthStrain(double dt) {
@@ -200,7 +215,8 @@ OrganFault Organ::relaxFromAnywhere() {
 
 /// The predicted equilibrium is only sensed: it need not be stable, nor more exact than the step.
 OrganFault Organ::relaxInPassing() {
-  return method_ == RelaxationMethod::statics ? take(equilibrium_.approach(rod_, loads_)) : relax();
+  return method_ == RelaxationMethod::statics ? take(equilibrium_.approach(rod_, loads_, trend_is_known_ ? 1 : 2))
+                                              : relax();
 }
 
 OrganFault Organ::relaxCorrected() {
@@ -264,25 +280,8 @@ double Organ::longestPart(const growth::Environment& environment, double time) {
   if (scenario_.stress_coupling) {
     dt = std::min(dt, longest(limits.growth_stress * scenario_.stress_coupling->yield_margin, fastest_stress));
   }
-  dt = std::min(dt, longest(limits.bend_angle, amplification_ * fastest_bend));
-  return std::min(dt, longest(limits.total_angle, amplification_ * total_turning));
-}
-
-/// How many times more the organ has turned in this part than its rest state: the nearer it is to falling over, the
-/// more (model.md 11.2). Bounded, so that a jump to another equilibrium shortens one part, not all that follow.
-double Organ::elasticAmplification() const {
-  constexpr double kMostAmplification = 20.0;
-  if (method_ == RelaxationMethod::kinematics || method_ == RelaxationMethod::continuous) return 1.0;
-  double turning = 0.0;
-  double rest_turning = 0.0;
-  for (std::size_t j = rod_.firstBend(); j < rod_.size(); ++j) {
-    const rod::Bend& before = beforePart().bends[j];
-    const rod::Bend& now = rod_.bends[j];
-    const double length = rod_.voronoiLength(j);
-    turning += length * (now.curvature - before.curvature).head<2>().norm();
-    rest_turning += length * (now.rest_curvature - before.rest_curvature).head<2>().norm();
-  }
-  return rest_turning > 0.0 ? std::clamp(turning / rest_turning, 1.0, kMostAmplification) : 1.0;
+  dt = std::min(dt, longest(limits.bend_angle, response_.amplification() * fastest_bend));
+  return std::min(dt, longest(limits.total_angle, response_.amplification() * total_turning));
 }
 
 growth::CueFields Organ::cues(const growth::Environment& environment) const {

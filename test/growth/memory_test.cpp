@@ -150,6 +150,25 @@ TEST(DelayedMemory, IsSecondOrderForASine) {
   EXPECT_NEAR(order(error(160), error(320)), 2.0, 0.1);
 }
 
+TEST(DelayedMemory, KnowsWhenWhatJumpedArrives) {
+  const std::vector<double> label{0.0};
+  const auto at = [](double value) { return SectionField{Eigen::Vector2d(value, 0.0)}; };
+  for (const BeforeStart before : {BeforeStart::constant, BeforeStart::zero}) {
+    Memory memory(Delay{0.7}, before);
+    memory.remember(1.0, label, at(2.0));
+    memory.remember(1.5, label, at(3.0));
+    memory.remember(2.0, label, at(4.0));
+    memory.remember(2.0, label, at(5.0));
+    memory.remember(2.5, label, at(5.0));
+    EXPECT_DOUBLE_EQ(memory.nextJump(1.6), before == BeforeStart::zero ? 1.7 : 2.7);
+    EXPECT_DOUBLE_EQ(memory.nextJump(1.7), 2.7);
+    EXPECT_EQ(memory.nextJump(2.7), HUGE_VAL);
+  }
+  Memory smooth(exponentialKernel(0.7), BeforeStart::zero);
+  smooth.remember(1.0, label, at(2.0));
+  EXPECT_EQ(smooth.nextJump(1.0), HUGE_VAL);
+}
+
 TEST(DelayedMemory, BeginsAsItIsTold) {
   EXPECT_EQ(perceived(Delay{6.0}, BeforeStart::zero, irregularTimes(9), [](double t) { return 3.0 + t; }), 0.0);
   EXPECT_EQ(perceived(Delay{6.0}, BeforeStart::constant, irregularTimes(9), [](double t) { return 3.0 + t; }), 3.0);

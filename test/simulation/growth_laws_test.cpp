@@ -227,7 +227,7 @@ TEST(Proprioception, DecaysExactlyForAnyStep) {
 // --- Elasticity, weight and growth together
 // ---------------------------------------------------------------------------
 
-/// A weighted organ that grows by exp(0.8) while it rights itself towards a lamp, in three dimensions.
+/// A weighted organ, twisted by a couple at its tip, that grows by exp(0.8) while it rights itself towards a lamp.
 Vector3 elasticTip(int steps) {
   Scenario scenario = kinematicScenario(0.8 / steps, 40);
   scenario.relaxation = RelaxationMethod::statics;
@@ -238,6 +238,7 @@ Vector3 elasticTip(int steps) {
       {0.0, StimulusCommand{StimulusKind::point_source, StimulusOperation::add, "lamp", {1.0, 2.0, 1.0}, 1.0}}};
   OrganScenario& organ = scenario.organs.front();
   organ.section = support::section(0.05, 1.0, 1.5);
+  organ.loads.tip_couple = {0.0, 0.1, 0.4};
   organ.senses = {0.15, 0.0, 0.05, 0.01};
   organ.bending.proprioception.intrinsic_length = 0.03;
   return tip(grown(scenario, steps));

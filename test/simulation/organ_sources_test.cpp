@@ -156,6 +156,12 @@ TEST(OrganSources, AreSensedLikeALampInTheirPlace) {
   takeSteps(beside_an_organ, 10);
   takeSteps(beside_a_lamp, 10);
   EXPECT_LT((tip(beside_an_organ, 0) - tip(beside_a_lamp, 0)).norm(), 1e-14);
+  const auto cue = [](const Simulation& simulation) {
+    const growth::CueFields cues = simulation.organs()[0].cues(simulation.seenBy(0));
+    return cues[static_cast<std::size_t>(growth::Cue::point_source)].back();
+  };
+  EXPECT_LT((cue(beside_an_organ) - cue(beside_a_lamp)).norm(), 1e-14);
+  EXPECT_GT(cue(beside_a_lamp).norm(), 0.01);
   EXPECT_GT(tip(beside_a_lamp, 0).x(), 0.3);
 }
 

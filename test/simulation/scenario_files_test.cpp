@@ -29,6 +29,7 @@ using support::good;
 using support::list;
 using support::problemsOf;
 using testing::ContainsRegex;
+using testing::HasSubstr;
 
 struct BadFile {
   const char* name;
@@ -75,6 +76,30 @@ TEST(ShippedFiles, AreValid) {
   EXPECT_FALSE(protocols.empty());
   for (const std::string& file : scenarios) EXPECT_NO_THROW(loadScenario(file)) << file;
   for (const std::string& file : protocols) EXPECT_NO_THROW(loadProtocol(file)) << file;
+}
+
+TEST(ShippedFiles, AreNamedWhereOneLooksForThem) {
+  const std::string readme = contentOf("../README.md"), docs = contentOf("../docs/scenario.md");
+  for (const std::string& file : yamlFiles("../config")) {
+    const std::string name = std::filesystem::path(file).stem();
+    EXPECT_THAT(readme, HasSubstr("| `" + name + "` |"));
+    EXPECT_THAT(docs, ContainsRegex("[ `]" + name + "[ ,`]"));
+    EXPECT_EQ(loadScenario(file).name, name);
+  }
+  for (const std::string& file : yamlFiles("../config/stimuli")) {
+    EXPECT_THAT(readme, HasSubstr("`" + std::filesystem::path(file).stem().string() + "`"));
+  }
+}
+
+TEST(ShippedFiles, TakeStepsThatTheLaunchFilesAllow) {
+  for (const char* launch : {"../launch/sim.launch", "../launch/demo.launch"}) {
+    const std::string text = contentOf(launch);
+    std::smatch scale;
+    ASSERT_TRUE(std::regex_search(text, scale, std::regex("name=\"growth_time_scale\" default=\"([0-9]+)\"")));
+    for (const std::string& file : yamlFiles("../config")) {
+      EXPECT_LE(loadScenario(file).stepping.step, std::stod(scale[1])) << file;  // within a second of ROS time
+    }
+  }
 }
 
 /// Key paths in the first column of the tables of docs/scenario.md.

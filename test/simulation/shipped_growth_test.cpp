@@ -1,4 +1,4 @@
-// The shipped scenarios of circumnutation, distance and growth laws do what their descriptions say.
+// The shipped scenarios of growth profiles, circumnutation, distance and growth laws do what their descriptions say.
 
 #include <algorithm>
 #include <cmath>
@@ -129,6 +129,24 @@ TEST(LampBetweenShoots, SaturatesTheNearShootAlone) {
   EXPECT_LT(simulation.organs()[1].report().largest_differential_growth, 0.1);
 }
 
+// --- three_distance_laws.yaml
+// ---------------------------------------------------------------------------------------------
+
+TEST(ThreeDistanceLaws, SettleInTheShapesOfTheirLaws) {
+  // The steady shape obeys theta' = (cues across the organ) / intrinsic_length from the base on; solve_ivp of SciPy.
+  const struct {
+    double towards, z, angle;
+  } expected[] = {{25.5976e-3, 53.2828e-3, 43.532}, {31.1816e-3, 50.0845e-3, 48.416}, {27.3726e-3, 51.1752e-3, 52.080}};
+  Simulation simulation(shipped("three_distance_laws"));
+  growUntil(simulation, 96.0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const rod::Rod& rod = simulation.organs()[i].rod();
+    EXPECT_NEAR(0.06 - tip(rod).head<2>().norm(), expected[i].towards, 0.02e-3) << i;
+    EXPECT_NEAR(tip(rod).z(), expected[i].z, 0.02e-3) << i;
+    EXPECT_NEAR(degrees(std::acos(tipDirection(rod).z())), expected[i].angle, 0.05) << i;
+  }
+}
+
 // --- three_growth_laws.yaml
 // -------------------------------------------------------------------------------------------
 
@@ -151,6 +169,22 @@ TEST(ThreeGrowthLaws, SagHoldAndCurl) {
   EXPECT_GT(moved(2), 1e-3);
 }
 
+// --- weeping_branch.yaml
+// ----------------------------------------------------------------------------------------------
+
+TEST(WeepingBranch, RestsWhereAllLawsTogetherWantIt) {
+  // The plane elastica with gamma_a (theta' - b*) = gamma_r m / B - lambda sin(theta) by collocation (solve_bvp of
+  // SciPy), inextensible; and the sag at the start.
+  Simulation simulation(shipped("weeping_branch"));
+  EXPECT_LT((tip(onlyRod(simulation)) - Vector3(142.293e-3, 0.0, -68.251e-3)).norm(), 0.1e-3);
+  growUntil(simulation, 24.0);
+  const Vector3 resting = tip(onlyRod(simulation));
+  EXPECT_LT((resting - Vector3(155.015e-3, 0.0, -37.003e-3)).norm(), 0.1e-3);
+  EXPECT_NEAR(degrees(tipAngle(onlyRod(simulation))), 108.045, 0.02);
+  growUntil(simulation, 36.0);
+  EXPECT_LT((tip(onlyRod(simulation)) - resting).norm(), 1e-9);
+}
+
 // --- coiling_tendril.yaml
 // ---------------------------------------------------------------------------------------------
 
@@ -170,6 +204,75 @@ TEST(CoilingTendril, WindsItselfIntoAHelixOfTheGivenCurvatureAndTwist) {
     EXPECT_NEAR((from_centre - from_centre.dot(axis) * axis).norm(), radius, 5e-3 * radius);
   }
   EXPECT_NEAR((tip(rod) - centre).dot(axis), rise * rod.restLength(), 5e-3 * rod.restLength());
+}
+
+TEST(CoilingTendril, FlattensIntoARingIfGrowthThinsItsTwist) {
+  Scenario scenario = shipped("coiling_tendril");
+  scenario.organs.front().twist_transport = growth::TwistTransport::angle;
+  Simulation simulation(scenario);
+  growUntil(simulation, 16.0);
+  for (const rod::Bend& bend : onlyRod(simulation).bends) {
+    EXPECT_NEAR(bend.rest_curvature.z(), 150.0 * std::exp(-1.6), 1e-6);
+  }
+}
+
+// --- wheat_coleoptile.yaml with config/stimuli/darwin_1880_light_reversed.yaml
+// --------------------------------------------------------------------------------------------------------------
+
+TEST(WheatColeoptile, FollowsTheLightFromSideToSide) {
+  // Curvature of 900 pieces of tissue that flow out of the zone, in Python with numpy, midpoint rule in steps of 6 s,
+  // without weight, which adds up to 0.5 degrees. The balance of light and gravity is at atan(0.5 / 0.8), 32.0 degrees.
+  const struct {
+    double hours, lean;
+  } expected[] = {{1, -22.53}, {2, -29.71}, {3, -31.33}, {4, -31.33}, {5, 12.47}, {6, 27.73}, {8, 31.64}};
+  for (const bool weight : {false, true}) {
+    Scenario scenario = shipped("wheat_coleoptile");
+    scenario.weight = weight;
+    scenario.protocol = loadProtocol("../config/stimuli/darwin_1880_light_reversed.yaml");
+    Simulation simulation(scenario);
+    for (const auto& [hours, lean] : expected) {
+      growUntil(simulation, hours);
+      EXPECT_NEAR(degrees(tipAngle(onlyRod(simulation))), lean, weight ? 0.5 : 0.05) << hours;
+    }
+    EXPECT_NEAR(onlyRod(simulation).restLength(), 38e-3, 1e-6);  // 1 mm an hour
+  }
+}
+
+// --- arabidopsis_root.yaml and arabidopsis_root_gaussian.yaml
+// ----------------------------------------------------------------------
+
+/// Angle of the tip below the horizontal, towards the base beyond 90 [deg].
+double dip(const Simulation& simulation) {
+  const Vector3 direction = tipDirection(onlyRod(simulation));
+  return degrees(std::atan2(-direction.z(), direction.x()));
+}
+
+TEST(ArabidopsisRoot, TurnsDownAndOvershootsAsAnIndependentIntegration) {
+  // As above with 3000 pieces and steps of 18 s.
+  const struct {
+    const char* name;
+    double dips[5];  ///< after 2, 5, 8, 12 and 16 h
+  } roots[] = {{"arabidopsis_root", {49.19, 86.22, 93.09, 91.18, 90.08}},
+               {"arabidopsis_root_gaussian", {50.25, 89.40, 96.08, 91.63, 89.64}}};
+  for (const auto& root : roots) {
+    Simulation simulation(shipped(root.name));
+    const double hours[] = {2, 5, 8, 12, 16};
+    for (int i = 0; i < 5; ++i) {
+      growUntil(simulation, hours[i]);
+      EXPECT_NEAR(dip(simulation), root.dips[i], 0.2) << root.name << " at " << hours[i];
+    }
+    EXPECT_NEAR(onlyRod(simulation).restLength(), 3e-3 + 16.0 * 0.13002e-3, 1e-7) << root.name;
+  }
+}
+
+TEST(ArabidopsisRoot, AdvancesItsTipByLessThanHalfAnElementAtOnce) {
+  Scenario scenario = shipped("arabidopsis_root");
+  scenario.organs.front().senses.gravity = 0.0;
+  scenario.stepping.step = 2.0 * 3600.0;
+  scenario.stepping.limits.growth_strain = 1.0;
+  Simulation simulation(scenario);
+  takeSteps(simulation, 1);
+  EXPECT_EQ(simulation.organs().front().report().substeps, 11);  // 260.04 um in parts of at most 25 um
 }
 
 }  // namespace

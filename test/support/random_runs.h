@@ -21,7 +21,8 @@ inline bool isSound(const simulation::Organ& organ) {
   for (const rod::Element& e : rod.elements) {
     sound = sound && std::isfinite(e.rest_length) && e.rest_length > 0.0 && e.reference_length > 0.0 &&
             std::isfinite(e.section.radius) && e.section.radius > 0.0 && e.strain.allFinite() &&
-            e.rest_strain.allFinite() && e.angular_velocity.allFinite() && std::abs(e.frame.norm() - 1.0) < 1e-6;
+            e.rest_strain.allFinite() && std::isfinite(e.age) && e.age >= 0.0 && e.angular_velocity.allFinite() &&
+            std::abs(e.frame.norm() - 1.0) < 1e-6;
   }
   for (const double rate : organ.growthRates()) sound = sound && std::isfinite(rate) && rate >= 0.0;
   const mechanics::Energy energy = organ.energy();

@@ -73,15 +73,25 @@ inline rod::Rod randomRod(std::mt19937& generator, std::size_t elements) {
   return rod;
 }
 
-/// The same with random labels and velocities: no field has a value that another one could be mistaken for.
+/// The same with all that random rods leave alike: no field has a value that another one could be mistaken for.
 inline rod::Rod randomMovingRod(std::mt19937& generator, std::size_t elements) {
   rod::Rod rod = randomRod(generator, elements);
-  std::uniform_real_distribution<double> uniform(0.0, 1.0 / static_cast<double>(elements));
+  std::uniform_real_distribution<double> label(0.0, 0.9 / static_cast<double>(elements));
+  std::uniform_real_distribution<double> factor(0.5, 1.5);
   for (std::size_t v = 0; v <= elements; ++v) {
-    if (v > 0 && v < elements) rod.vertices[v].label += 0.9 * uniform(generator);
+    if (v > 0 && v < elements) rod.vertices[v].label += label(generator);
     rod.vertices[v].velocity = randomVector(generator, 2.0);
   }
-  for (rod::Element& e : rod.elements) e.angular_velocity = randomVector(generator, 4.0);
+  bool is_inextensible = false;
+  for (rod::Element& e : rod.elements) {
+    e.angular_velocity = randomVector(generator, 4.0);
+    e.age = 3600.0 * factor(generator);
+    e.section.young_modulus *= factor(generator);
+    e.section.shear_modulus *= factor(generator);
+    e.section.density *= factor(generator);
+    e.section.shear_correction *= factor(generator);
+    e.section.inextensible = is_inextensible = !is_inextensible;
+  }
   return rod;
 }
 

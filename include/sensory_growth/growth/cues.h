@@ -56,6 +56,12 @@ struct Place {
 /// Differential growth vector [-] of every cue at one place: components along d1 and d2 there.
 using SectionCues = std::array<Eigen::Vector2d, kCues>;
 
+/// Components along d1 and d2 of the frame of every bend; size n, zero at a bend without stiffness.
+using SectionField = std::vector<Eigen::Vector2d>;
+
+/// The field of every cue; cues that an organ does not answer have the field zero.
+using CueFields = std::array<SectionField, kCues>;
+
 /// What the cues ask for at one time, as a function of place. Must not outlive its arguments.
 class CueField {
  public:
@@ -63,6 +69,9 @@ class CueField {
 
   /// Finite for every finite input.
   SectionCues at(const Place& place) const;
+
+  /// What every bend of a rod senses, with its actual frame and position, several bends at a time.
+  void along(const rod::Rod& rod, CueFields& cues) const;
 
  private:
   double response(double strength) const;
@@ -76,12 +85,6 @@ class CueField {
   rod::Vector3 towards_lights_;  ///< the same for parallel light
   double apical_phase_;          ///< of the oscillator [rad]
 };
-
-/// Components along d1 and d2 of the frame of every bend; size n, zero at a bend without stiffness.
-using SectionField = std::vector<Eigen::Vector2d>;
-
-/// The field of every cue; cues that an organ does not answer have the field zero.
-using CueFields = std::array<SectionField, kCues>;
 
 /// What every bend senses of every cue there and then, with its actual frame and position.
 void sense(const Senses& senses, const Environment& environment, double time, const rod::Rod& rod, CueFields& cues);

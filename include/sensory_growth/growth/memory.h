@@ -34,6 +34,10 @@ class Memory {
   /// at the same time is a jump.
   const SectionField& remember(double time, const std::vector<double>& labels, const SectionField& sensed);
 
+  /// When what is perceived next jumps after `time` [s], as far as is known by now; infinity if it does not. Only a
+  /// pure delay passes jumps on as they are.
+  double nextJump(double time) const;
+
   /// Samples that are kept.
   std::size_t size() const { return size_; }
 

@@ -43,6 +43,10 @@ class Perception {
   /// Whether anything perceived depends on the past.
   bool hasMemory() const;
 
+  /// When what is perceived next jumps after `time` [s], because a stimulus did so a delay ago; infinity if it does
+  /// not.
+  double nextJump(double time) const;
+
   /// [s]; infinity without delays. A part of a step must be shorter (model.md 11.2).
   double shortestDelay() const;
 

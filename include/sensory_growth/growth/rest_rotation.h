@@ -18,9 +18,9 @@ struct RestRotation {
 };
 
 /// Turns the rest curvature, and with it the actual one and the drive that acts on it, by dt [s], given the elongation
-/// rates of the elements. An exact rotation: with drive and straightening in the turning frame, the step stays of
-/// second order.
-void turn(rod::Rod& rod, const RestRotation& rotation, const std::vector<double>& rates, double dt,
-          std::vector<rod::Vector3>& drive);
+/// rates of the elements at its start and end. Tissue that crosses the gate turns for its share of dt. An exact
+/// rotation: with drive and straightening in the turning frame, the step stays of second order.
+void turn(rod::Rod& rod, const RestRotation& rotation, const std::vector<double>& rates,
+          const std::vector<double>& end_rates, double dt, std::vector<rod::Vector3>& drive);
 
 }  // namespace sensory_growth::growth

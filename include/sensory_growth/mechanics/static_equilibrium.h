@@ -30,10 +30,9 @@ class StaticEquilibrium {
   /// A rod in surroundings is left to SupportedEquilibrium.
   RelaxationReport relax(rod::Rod& rod, const Loads& loads, Stability stability = Stability::measured);
 
-  /// Two iterations from a rod that is already close, such as one that has grown a little: their error is of fourth
-  /// order in the distance. Neither residual nor stability are looked at. A rod that is not close, or is unstable, is
-  /// relaxed instead.
-  RelaxationReport approach(rod::Rod& rod, const Loads& loads);
+  /// So many iterations from a rod that is already close, such as one that has grown a little: each squares the error.
+  /// Neither residual nor stability are looked at. A rod that is not close, or is unstable, is relaxed instead.
+  RelaxationReport approach(rod::Rod& rod, const Loads& loads, int iterations = 2);
 
   /// Decides about stability and relaxes like relax() the rod of the last approach(), of which only curvatures have
   /// changed since: takes over no more than these.

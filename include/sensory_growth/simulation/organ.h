@@ -12,6 +12,7 @@
 #include "sensory_growth/mechanics/energy.h"
 #include "sensory_growth/mechanics/static_equilibrium.h"
 #include "sensory_growth/rod/rod.h"
+#include "sensory_growth/simulation/elastic_response.h"
 #include "sensory_growth/simulation/parameters.h"
 #include "sensory_growth/simulation/scenario.h"
 
@@ -91,7 +92,7 @@ class Organ {
   const growth::GrowthStrain& growthStrain(double dt);
   void correctFactors(const growth::GrowthStrain& strain, double dt);
   void growOlder(const growth::GrowthStrain& strain, double dt, double share);
-  double elasticAmplification() const;
+  void learnElasticResponse(double dt);
   OrganFault relax();
   OrganFault relaxFromAnywhere();
   OrganFault relaxInPassing();
@@ -117,8 +118,9 @@ class Organ {
   growth::Deposition deposition_;
   growth::CueFields cues_;
   std::vector<rod::Vector3> drive_, new_drive_;
-  std::vector<double> rates_;
-  double amplification_ = 1.0, amplification_before_step_ = 1.0;  ///< as the last part left it
+  std::vector<double> rates_, new_rates_;
+  ElasticResponse response_, response_before_step_;
+  bool trend_is_known_ = false;  ///< for the part that is under way
   OrganReport report_, report_before_step_;
   bool weight_changed_ = false, weight_changed_before_step_ = false;  ///< since the last relaxation
   bool has_begun_ = false;

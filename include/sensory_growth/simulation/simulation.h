@@ -2,6 +2,7 @@
 
 /// Organs that grow and relax together under shared stimuli.
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -44,6 +45,9 @@ class Simulation {
 
   /// What all organs sense; organs that sense each other come on top.
   const growth::Environment& environment() const { return environment_; }
+
+  /// What one organ senses: all that and the other organs.
+  growth::Environment seenBy(std::size_t organ) const { return OrganSources(sources_).seenBy(organ, environment_); }
 
   /// In force, in the world frame [m/s^2].
   const rod::Vector3& gravity() const { return gravity_; }
