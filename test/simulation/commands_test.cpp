@@ -314,8 +314,8 @@ TEST(Commands, OutliveAStepThatFails) {
 }
 
 TEST(Commands, LeaveNothingBehindWhereAStepFailsHalfWay) {
-  // A heavy organ of four elements curls beyond what they resolve, after it has taken the new weight and some parts
-  // that made it expect to turn more than its rest state does.
+  // A heavy organ of four elements curls beyond what they resolve, after it has taken the new weight, and some parts
+  // that made it expect to turn more than its rest state does and that it remembers.
   Scenario scenario = kinematicScenario(0.05, 4);
   scenario.relaxation = RelaxationMethod::statics;
   scenario.weight = true;
@@ -325,6 +325,12 @@ TEST(Commands, LeaveNothingBehindWhereAStepFailsHalfWay) {
   organ.base.frame = rod::exp({0.0, 0.3, 0.0});
   organ.section = support::section(0.05, 1.0, 3.0);
   organ.senses.gravity = 0.1;
+  organ.senses.point_source = 0.1;
+  organ.sensing.resize(1);
+  organ.sensing[0].cues = {growth::Cue::point_source};
+  organ.sensing[0].memory = growth::exponentialKernel(0.2);
+  scenario.protocol = {
+      {0.0, StimulusCommand{StimulusKind::point_source, StimulusOperation::add, "lamp", Vector3(1.0, 1.0, 1.0), 1.0}}};
   const ParameterCommand wild{"organ", "sensitivities.gravity", -40.0}, calm{"organ", "sensitivities.gravity", 0.1};
   const auto run = [&](bool tries_in_vain) {
     Simulation simulation(scenario);
