@@ -313,5 +313,40 @@ TEST(Commands, OutliveAStepThatFails) {
   expectSameBits(simulation, straight_on);
 }
 
+TEST(Commands, LeaveNothingBehindWhereAStepFailsHalfWay) {
+  // A heavy organ of four elements curls beyond what they resolve, after it has taken the new weight, and some parts
+  // that made it expect to turn more than its rest state does and that it remembers.
+  Scenario scenario = kinematicScenario(0.05, 4);
+  scenario.relaxation = RelaxationMethod::statics;
+  scenario.weight = true;
+  scenario.gravity = -Vector3::UnitZ();
+  scenario.stepping.limits.total_angle = 0.01;
+  OrganScenario& organ = scenario.organs.front();
+  organ.base.frame = rod::exp({0.0, 0.3, 0.0});
+  organ.section = support::section(0.05, 1.0, 3.0);
+  organ.senses.gravity = 0.1;
+  organ.senses.point_source = 0.1;
+  organ.sensing.resize(1);
+  organ.sensing[0].cues = {growth::Cue::point_source};
+  organ.sensing[0].memory = growth::exponentialKernel(0.2);
+  scenario.protocol = {
+      {0.0, StimulusCommand{StimulusKind::point_source, StimulusOperation::add, "lamp", Vector3(1.0, 1.0, 1.0), 1.0}}};
+  const ParameterCommand wild{"organ", "sensitivities.gravity", -40.0}, calm{"organ", "sensitivities.gravity", 0.1};
+  const auto run = [&](bool tries_in_vain) {
+    Simulation simulation(scenario);
+    takeSteps(simulation, 2);
+    simulation.apply(GravityCommand{Vector3(0.3, 0.0, -1.0)});
+    if (tries_in_vain) {
+      simulation.apply(wild);
+      EXPECT_FALSE(simulation.step().ok);
+      EXPECT_GT(simulation.organs().front().report().substeps, 0);
+      simulation.apply(calm);
+    }
+    takeSteps(simulation, 2);
+    return simulation;
+  };
+  expectSameBits(run(true), run(false));
+}
+
 }  // namespace
 }  // namespace sensory_growth::simulation
