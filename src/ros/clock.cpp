@@ -22,6 +22,9 @@ std::vector<std::string> findClockProblems(ClockMode mode) {
   if (mode == ClockMode::publish && !ros::Time::isSimTime()) {
     problems.push_back("~clock_mode is publish, which needs /use_sim_time to be true before the node starts");
   }
+  if (mode == ClockMode::follow && !ros::Time::isSimTime()) {
+    problems.push_back("~clock_mode is follow, which needs /use_sim_time to be true before the node starts");
+  }
   if (mode == ClockMode::wall && ros::Time::isSimTime()) {
     problems.push_back("~clock_mode is wall, which needs /use_sim_time to be false or absent");
   }
@@ -57,20 +60,64 @@ ros::Time stampOf(std::uint64_t ticks, double step) {
   return stamp;
 }
 
-Clock::Clock(ClockMode mode, double step, double rate, ros::NodeHandle node)
-    : mode_(mode), step_(step), shortest_interval_(1.0 / rate) {
-  if (mode_ == ClockMode::publish) publisher_ = node.advertise<rosgraph_msgs::Clock>(names::kClock, 10);
+Clock::Clock(const ClockSettings& settings, ros::NodeHandle node)
+    : settings_(settings), shortest_interval_(1.0 / settings.rate) {
+  if (settings_.mode == ClockMode::publish) publisher_ = node.advertise<rosgraph_msgs::Clock>(names::kClock, 10);
+  if (settings_.mode == ClockMode::follow) followed_.emplace(settings_.step, ros::Time::now());
+}
+
+void Clock::start() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (followed_) followed_->start();
+}
+
+void Clock::stop() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (followed_) followed_->stop();
+}
+
+bool Clock::isDue() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return !followed_ || followed_->isDue();
+}
+
+void Clock::hear(const ros::Time& now) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (followed_) followed_->hear(now);
+}
+
+bool Clock::takeBackwardJump() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return followed_ && followed_->takeBackwardJump();
+}
+
+std::uint64_t Clock::overruns() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return followed_ ? followed_->overruns() : 0;
+}
+
+void Clock::reset() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (settings_.reset_time == ResetTime::keep_time) return;
+  ticks_ = 0;
+  last_published_ = {};  // whoever listens is told at once
 }
 
 ros::Time Clock::tick() {
   const std::lock_guard<std::mutex> lock(mutex_);
   ++ticks_;
-  if (mode_ == ClockMode::publish) {
-    stamp_ = stampOf(ticks_, step_);
-    is_published_ = false;
-    if (ros::SteadyTime::now() - last_published_ >= shortest_interval_) publish();
-  } else {
-    stamp_ = std::max(ros::Time::now(), stamp_ + ros::Duration(0, 1));
+  switch (settings_.mode) {
+    case ClockMode::publish:
+      stamp_ = stampOf(ticks_, settings_.step);
+      is_published_ = false;
+      if (ros::SteadyTime::now() - last_published_ >= shortest_interval_) publish();
+      break;
+    case ClockMode::follow:
+      stamp_ = followed_->tick();
+      break;
+    case ClockMode::wall:
+      stamp_ = std::max(ros::Time::now(), stamp_ + ros::Duration(0, 1));
+      break;
   }
   return stamp_;
 }
@@ -82,7 +129,7 @@ void Clock::flush() {
 
 void Clock::keepAlive() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (mode_ != ClockMode::publish || ticks_ == 0) return;
+  if (settings_.mode != ClockMode::publish || ticks_ == 0) return;
   if (ros::SteadyTime::now() - last_published_ >= ros::WallDuration(kKeepAliveInterval)) publish();
 }
 

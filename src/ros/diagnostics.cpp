@@ -1,10 +1,11 @@
 #include "sensory_growth/ros/diagnostics.h"
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
+#include <ros/console.h>
 
 #include <utility>
 
-#include "sensory_growth/ros/clock.h"
+#include "sensory_growth/ros/names.h"
 
 namespace sensory_growth::node {
 namespace {
@@ -24,13 +25,6 @@ const char* describe(Mode mode) {
       return "fault";
   }
   return "?";
-}
-
-void reportClock(DiagnosticStatusWrapper& status) {
-  const std::vector<std::string> others = otherClockPublishers();
-  if (others.empty()) return status.summary(DiagnosticStatus::OK, "this node alone publishes /clock");
-  status.summary(DiagnosticStatus::ERROR, "another node publishes /clock too");
-  for (const std::string& other : others) status.add("publisher", other);
 }
 
 }  // namespace
@@ -87,8 +81,37 @@ void reportStimuli(const StimulusCounters& counters, std::uint64_t refused_befor
   for (const StimulusFate fate : kStimulusFates) status.add(name(fate), counters.of(fate));
 }
 
+void reportRecording(const std::string& path, const std::string& failure, DiagnosticStatusWrapper& status) {
+  if (!failure.empty()) return status.summary(DiagnosticStatus::WARN, "failed: " + failure);
+  status.summary(DiagnosticStatus::OK, path.empty() ? "off" : "writing " + path);
+}
+
+void reportMaster(MasterWatch::State state, DiagnosticStatusWrapper& status) {
+  switch (state) {
+    case MasterWatch::State::known:
+      return status.summary(DiagnosticStatus::OK, "registered");
+    case MasterWatch::State::unreachable:
+      return status.summary(DiagnosticStatus::WARN, "the master is out of reach; nobody new can find this node");
+    case MasterWatch::State::registered_again:
+      return status.summary(DiagnosticStatus::WARN, "the master was started anew; this node has registered again");
+  }
+}
+
+void reportClock(ClockMode mode, const std::vector<std::string>& others, DiagnosticStatusWrapper& status) {
+  for (const std::string& other : others) status.add("publisher", other);
+  if (mode == ClockMode::publish) {
+    if (others.empty()) return status.summary(DiagnosticStatus::OK, "this node alone publishes /clock");
+    return status.summary(DiagnosticStatus::ERROR, "another node publishes /clock too");
+  }
+  if (others.empty()) return status.summary(DiagnosticStatus::WARN, "nobody publishes /clock, so time stands still");
+  if (others.size() == 1) return status.summary(DiagnosticStatus::OK, "following the /clock of " + others.front());
+  status.summary(DiagnosticStatus::ERROR, "several nodes publish /clock");
+}
+
 Diagnostics::Diagnostics(ros::NodeHandle node, ros::NodeHandle private_node, Sources sources)
-    : sources_(std::move(sources)), updater_(std::move(node), std::move(private_node)) {
+    : sources_(std::move(sources)),
+      clock_warnings_(std::chrono::seconds(10)),
+      updater_(std::move(node), std::move(private_node)) {
   updater_.setHardwareID("none");
   updater_.add("simulation",
                [this](DiagnosticStatusWrapper& status) { reportLoop(sources_.loop(), *sources_.snapshot(), status); });
@@ -102,10 +125,21 @@ Diagnostics::Diagnostics(ros::NodeHandle node, ros::NodeHandle private_node, Sou
     refused_before_ = sources_.counters->refused();
   });
   updater_.add("recording", [this](DiagnosticStatusWrapper& status) {
-    const std::string path = sources_.recording();
-    status.summary(DiagnosticStatus::OK, path.empty() ? "off" : "writing " + path);
+    reportRecording(sources_.recording(), sources_.recording_failure(), status);
   });
-  if (sources_.owns_clock) updater_.add("clock", reportClock);
+  updater_.add("master", [this](DiagnosticStatusWrapper& status) {
+    const MasterWatch::State state = master_.check();
+    reportMaster(state, status);
+    status.add("times registered again", master_.restarts());
+    if (state == MasterWatch::State::registered_again) ROS_WARN_STREAM_NAMED(names::kLogRos, status.message);
+  });
+  if (sources_.clock_mode == ClockMode::wall) return;
+  updater_.add("clock", [this](DiagnosticStatusWrapper& status) {
+    reportClock(sources_.clock_mode, otherClockPublishers(), status);
+    if (status.level == DiagnosticStatus::ERROR && clock_warnings_.due()) {
+      ROS_WARN_STREAM_NAMED(names::kLogRos, status.message << "; time jumps to and fro");
+    }
+  });
 }
 
 }  // namespace sensory_growth::node

@@ -15,6 +15,7 @@
 
 #include "sensory_growth/ros/conversions.h"
 #include "sensory_growth/ros/names.h"
+#include "sensory_growth/ros/wall_throttle.h"
 
 namespace sensory_growth::node {
 namespace {
@@ -42,6 +43,16 @@ ros::ServiceServer serve(ros::NodeHandle& node, const char* name, ros::CallbackQ
   return node.advertiseService(options);
 }
 
+/// Until somebody says what time it is; false if the process is to end first.
+bool waitForTime(const Signals& signals) {
+  WallThrottle reminders(std::chrono::seconds(10));
+  while (!ros::Time::isValid()) {
+    if (reminders.due()) ROS_WARN_STREAM_NAMED(names::kLogRos, "waiting for somebody to publish " << names::kClock);
+    if (!ros::ok() || signals.wait(kSignalPatience)) return false;
+  }
+  return true;
+}
+
 int complain(const std::vector<std::string>& problems) {
   for (const std::string& problem : problems) ROS_FATAL_STREAM_NAMED(names::kLogRos, problem);
   return 1;
@@ -54,16 +65,19 @@ Node::Node(const Parameters& parameters, LoadedScenario loaded)
       duration_(loaded.scenario.duration),
       step_(loaded.scenario.stepping.step / parameters.growth_time_scale),
       private_node_("~"),
-      clock_(parameters.clock_mode, step_, parameters.clock_rate, node_),
+      clock_({parameters.clock_mode, step_, parameters.clock_rate, parameters.reset_time}, node_),
       publishers_(parameters, loaded.sources, counters_, private_node_),
       intake_(node_, private_node_, parameters.world_frame, counters_,
               {[this](const simulation::StimulusCommand& command) { return loop_.send(command); },
                [this] { loop_.refreshStatus(); }}),
       loop_(simulation::Simulation(std::move(loaded.scenario), parameters.threads),
-            {step_, parameters.real_time_factor, parameters.start_paused}, clock_, counters_, publishers_),
+            {step_, parameters.real_time_factor, parameters.start_paused, parameters.clock_mode == ClockMode::follow,
+             parameters.on_backward_jump},
+            clock_, counters_, publishers_),
       topic_spinner_(1),
       control_spinner_(1, &control_queue_),
-      step_spinner_(1, &step_queue_) {
+      step_spinner_(1, &step_queue_),
+      health_spinner_(1, &health_queue_) {
   if (!parameters_.recording_directory.empty()) {
     std::filesystem::create_directories(parameters_.recording_directory);
   }
@@ -75,18 +89,22 @@ Node::Node(const Parameters& parameters, LoadedScenario loaded)
   diagnostics_ = std::make_unique<Diagnostics>(
       node_, private_node_,
       Diagnostics::Sources{[this] { return loop_.snapshot(); }, [this] { return loop_.status(); },
-                           [this] { return publishers_.recordingPath(); }, loaded.sources.organs, &counters_,
-                           parameters_.clock_mode == ClockMode::publish});
+                           [this] { return publishers_.recordingPath(); },
+                           [this] { return publishers_.recordingFailure(); }, loaded.sources.organs, &counters_,
+                           parameters_.clock_mode});
 }
 
 Node::~Node() {
+  clock_listener_.reset();
   loop_.stop();  // first, because it wakes the services that wait
   topic_spinner_.stop();
   control_spinner_.stop();
   step_spinner_.stop();
+  health_spinner_.stop();
   if (const auto recording = publishers_.takeRecording()) {
     const RecordingSummary summary = recording->finish();
     ROS_INFO_STREAM_NAMED(names::kLogRecording, "closed " << summary.path << ": " << summary.messages << " messages");
+    if (!summary.error.empty()) ROS_WARN_STREAM_NAMED(names::kLogRecording, summary.error);
   }
 }
 
@@ -94,9 +112,13 @@ int Node::run(const Signals& signals) {
   advertiseServices();
   startTimers();
   loop_.start();
+  if (parameters_.clock_mode == ClockMode::follow) {
+    clock_listener_ = std::make_unique<ClockListener>(node_, [this](const ros::Time& now) { loop_.hearClock(now); });
+  }
   topic_spinner_.start();
   control_spinner_.start();
   step_spinner_.start();
+  health_spinner_.start();
   while (ros::ok() && !signals.wait(kSignalPatience)) {
     const RunStatus status = loop_.status();
     if (!parameters_.exit_when_finished) continue;
@@ -128,6 +150,8 @@ void Node::advertiseServices() {
                                [this](auto& q, auto& r) { fill(loop_.setRealTimeFactor(q.factor), r); }));
   services_.push_back(serve<StartRecording>(private_node_, names::kStartRecording, control_queue_,
                                             [this](auto& q, auto& r) { startRecording(q, r); }));
+  services_.push_back(serve<SplitRecording>(private_node_, names::kSplitRecording, control_queue_,
+                                            [this](auto&, auto& r) { splitRecording(r); }));
   services_.push_back(serve<StopRecording>(private_node_, names::kStopRecording, control_queue_,
                                            [this](auto&, auto& r) { stopRecording(r); }));
   services_.push_back(serve<Step>(private_node_, names::kStep, step_queue_,
@@ -142,6 +166,16 @@ void Node::startRecording(const StartRecording::Request& request, StartRecording
   });
   fill(answer, response);
   if (answer.success) response.message = "recording";
+}
+
+void Node::splitRecording(SplitRecording::Response& response) {
+  fill(loop_.atBoundary([&](const Snapshot& snapshot) {
+    const auto refusal = publishers_.splitRecording(snapshot);
+    response.path = publishers_.recordingPath();
+    return refusal;
+  }),
+       response);
+  if (response.success) response.message = "recording";
 }
 
 void Node::stopRecording(StopRecording::Response& response) {
@@ -161,13 +195,14 @@ void Node::stopRecording(StopRecording::Response& response) {
 }
 
 void Node::startTimers() {
-  const auto every = [this](double interval, auto action) {
-    timers_.push_back(
-        node_.createWallTimer(ros::WallDuration(interval), [action](const ros::WallTimerEvent&) { action(); }));
+  const auto every = [this](double interval, auto action, ros::CallbackQueue* queue = nullptr) {
+    timers_.push_back(node_.createWallTimer(ros::WallTimerOptions(
+        ros::WallDuration(interval), [action](const ros::WallTimerEvent&) { action(); }, queue)));
   };
   every(1.0 / parameters_.marker_rate, [this] { publishers_.showMarkers(loop_.snapshot()); });
   every(0.1, [this] { clock_.keepAlive(); });
-  every(1.0, [this] { diagnostics_->update(); });
+  every(
+      1.0, [this] { diagnostics_->update(); }, &health_queue_);
   if (parameters_.progress) every(1.0, [this] { logProgress(); });
 }
 
@@ -199,6 +234,7 @@ int runNode(const Signals& signals) {
   }
   if (!reading.problems.empty()) return complain(reading.problems);
   ROS_INFO_STREAM_NAMED(names::kLogRos, "effective parameters:\n" << loaded.sources.parameters);
+  if (!waitForTime(signals)) return 0;
   try {
     return Node(reading.parameters, std::move(loaded)).run(signals);
   } catch (const std::exception& error) {

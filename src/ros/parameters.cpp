@@ -13,6 +13,9 @@
 namespace sensory_growth::node {
 namespace {
 
+constexpr double kSmallestPart =
+    1e6;  // of a recording [byte]; smaller ones would hold little but what each begins with
+
 enum class Need { optional, required };
 
 /// Allowed values of a number, limits included.
@@ -34,7 +37,11 @@ void visit(Parameters& p, Visitor& parameter) {
   parameter.text("world_frame", p.world_frame);
   parameter.text("frame_prefix", p.frame_prefix);
   parameter.count("stations", p.stations, {0, 100});
-  parameter.choice("clock_mode", p.clock_mode, {{"publish", ClockMode::publish}, {"wall", ClockMode::wall}});
+  parameter.choice("clock_mode", p.clock_mode,
+                   {{"publish", ClockMode::publish}, {"follow", ClockMode::follow}, {"wall", ClockMode::wall}});
+  parameter.choice("reset_time", p.reset_time, {{"keep_time", ResetTime::keep_time}, {"rewind", ResetTime::rewind}});
+  parameter.choice("on_backward_jump", p.on_backward_jump,
+                   {{"reset", BackwardJump::reset}, {"ignore", BackwardJump::ignore}});
   parameter.number("clock_rate", p.clock_rate, {1.0, 1e5});
   parameter.count("threads", p.threads, {0, 1024});
   parameter.number("growth_time_scale", p.growth_time_scale, {kTiny, kHuge}, Need::required);
@@ -48,6 +55,7 @@ void visit(Parameters& p, Visitor& parameter) {
   parameter.choice("recording_compression", p.recording_compression,
                    {{"none", Compression::none}, {"lz4", Compression::lz4}, {"bz2", Compression::bz2}});
   parameter.count("recording_marker_every", p.recording_marker_every, {0, 1000000});
+  parameter.number("recording_split_size", p.recording_split_size, {0.0, 1e18});
   parameter.number("recording_minimum_free_space", p.recording_minimum_free_space, {0.0, 1e18});
   parameter.number("marker_rate", p.marker_rate, {0.1, 100.0});
   parameter.choice("marker_style", p.marker_style, {{"tube", MarkerShape::tube}, {"line", MarkerShape::line}});
@@ -192,6 +200,12 @@ bool startsWithSlash(const std::string& frame) { return !frame.empty() && frame.
 void checkTogether(const Parameters& p, Reader& reader) {
   if (p.real_time_factor > 0.0 && p.real_time_factor < kLowestRealTimeFactor) {
     reader.problem("real_time_factor", "is below 1e-6 but not 0; at 0 the simulation runs as fast as it can");
+  }
+  if (p.reset_time == ResetTime::rewind && p.clock_mode != ClockMode::publish) {
+    reader.problem("reset_time", "is rewind, which needs ~clock_mode to be publish: this node does not own ROS time");
+  }
+  if (p.recording_split_size > 0.0 && p.recording_split_size < kSmallestPart) {
+    reader.problem("recording_split_size", "is below 1e6 but not 0; at 0 a recording is never split");
   }
   if (p.world_frame.empty()) reader.problem("world_frame", "is empty");
   if (startsWithSlash(p.world_frame)) reader.problem("world_frame", "must not begin with a slash");

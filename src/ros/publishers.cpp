@@ -26,12 +26,8 @@ Publishers::Publishers(const Parameters& parameters, const Sources& sources, con
   advertise<visualization_msgs::MarkerArray>(topics_.markers, 10);
   for (const auto& [organ, topic] : topics_.states) advertise<OrganState>(topic, kQueue);
 
-  publish(topics_.parameters, textMessage(sources_.parameters));
-  publish(topics_.scenario, textMessage(sources_.scenario));
-  if (!sources_.protocol.empty()) {
-    advertise<std_msgs::String>(topics_.protocol, 1);
-    publish(topics_.protocol, textMessage(sources_.protocol));
-  }
+  if (!sources_.protocol.empty()) advertise<std_msgs::String>(topics_.protocol, 1);
+  publishSources();
 }
 
 void Publishers::onCommand(const simulation::AppliedCommand& command, const Snapshot& snapshot) {
@@ -44,6 +40,8 @@ void Publishers::showMarkers(const SnapshotPtr& snapshot) {
   const ros::Publisher& publisher = publishers_.at(topics_.markers.name);
   // Drawn once even if nobody looks, so that there is something to latch.
   if (shown_ && publisher.getNumSubscribers() == 0) return;
+  // Viewers forget what they drew when time runs backwards.
+  if (shown_ && snapshot->stamp < shown_->stamp) live_markers_.reset();
   if (!live_markers_) live_markers_.emplace(*marker_settings_);
   publisher.publish(boost::make_shared<const visualization_msgs::MarkerArray>(live_markers_->next(*snapshot)));
   shown_ = snapshot;

@@ -1,12 +1,15 @@
 #include "sensory_growth/ros/recording.h"
 
 #include <cctype>
+#include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <exception>
 #include <filesystem>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 namespace sensory_growth::node {
 namespace {
@@ -15,7 +18,8 @@ constexpr char kExtension[] = ".bag";
 constexpr char kActive[] = ".active";
 constexpr std::size_t kMostQueued = 64;               // messages; what waits must be on disk soon after Ctrl-C
 constexpr std::uint64_t kSpaceCheckInterval = 100;    // messages
-constexpr std::uint32_t kChunkThreshold = 64 * 1024;  // small, so that little is lost if the process is killed [byte]
+constexpr std::uint32_t kChunkThreshold = 64 * 1024;  // [byte]
+constexpr std::chrono::milliseconds kFlushInterval{50};
 
 rosbag::CompressionType toRosbag(Compression compression) {
   switch (compression) {
@@ -40,6 +44,20 @@ bool endsWith(const std::string& text, const std::string& end) {
   return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
+/// A bag that cannot be closed cannot be destroyed either, since its destructor would throw: it stays until the end.
+void abandon(std::unique_ptr<rosbag::Bag> bag) {
+  static std::mutex mutex;
+  static auto& abandoned = *new std::vector<std::unique_ptr<rosbag::Bag>>;
+  const std::lock_guard<std::mutex> lock(mutex);
+  abandoned.push_back(std::move(bag));
+}
+
+/// With the reason of the operating system, which rosbag does not tell.
+std::string describe(const std::exception& failure) {
+  const int number = errno;
+  return failure.what() + (number == 0 ? "" : std::string(": ") + std::generic_category().message(number));
+}
+
 }  // namespace
 
 std::string recordingPath(const std::string& directory, const std::string& file) {
@@ -56,12 +74,13 @@ std::string recordingPath(const std::string& directory, const std::string& file)
   return path;
 }
 
-Recording::Recording(const std::string& path, const RecordingSettings& settings) : path_(path), settings_(settings) {
+Recording::Recording(const std::string& path, const RecordingSettings& settings)
+    : path_(path), settings_(settings), bag_(std::make_unique<rosbag::Bag>()) {
   if (!hasSpace()) throw std::runtime_error("the disk of " + path_ + " has too little free space");
   try {
-    bag_.open(path_ + kActive, rosbag::bagmode::Write);
-    bag_.setCompression(toRosbag(settings_.compression));
-    bag_.setChunkThreshold(kChunkThreshold);
+    bag_->open(path_ + kActive, rosbag::bagmode::Write);
+    bag_->setCompression(toRosbag(settings_.compression));
+    bag_->setChunkThreshold(kChunkThreshold);
   } catch (const rosbag::BagException& error) {
     throw std::runtime_error("cannot write " + path_ + ": " + error.what());
   }
@@ -70,23 +89,23 @@ Recording::Recording(const std::string& path, const RecordingSettings& settings)
 
 Recording::~Recording() { finish(); }
 
+void Recording::finishSoon() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  is_finishing_ = true;
+  changed_.notify_all();
+}
+
 RecordingSummary Recording::finish() {
   const std::lock_guard<std::mutex> only_one(finish_mutex_);
   if (thread_.joinable()) {
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      is_finishing_ = true;
-      changed_.notify_all();
-    }
+    finishSoon();
     thread_.join();
-    try {
-      bag_.close();
-      std::filesystem::rename(path_ + kActive, path_);
-    } catch (const std::exception& failure) {
-      fail(failure.what());
-    }
   }
-  return {path_, messages_, error_};
+  return {is_unfinished_ ? path_ + kActive : path_, messages_, error_};
+}
+
+void Recording::countFromHere() {
+  push([this](rosbag::Bag& bag) { uncounted_size_ = bag.getSize(); });
 }
 
 void Recording::push(Entry entry) {
@@ -98,17 +117,32 @@ void Recording::push(Entry entry) {
 }
 
 void Recording::run() {
+  do {
+    if (const auto entry = waitForEntry()) writeEntry(*entry);
+    if (flush_due_ && std::chrono::steady_clock::now() >= *flush_due_) flush();
+  } while (!isDone());
+  close();
+}
+
+/// Nothing if a flush is due first, or if there will be no more.
+std::optional<Recording::Entry> Recording::waitForEntry() {
   std::unique_lock<std::mutex> lock(mutex_);
-  while (true) {
-    changed_.wait(lock, [this] { return is_finishing_ || !queue_.empty(); });
-    if (queue_.empty()) return;
-    const Entry entry = std::move(queue_.front());
-    queue_.pop_front();
-    changed_.notify_all();
-    lock.unlock();
-    writeEntry(entry);
-    lock.lock();
+  const auto has_news = [this] { return is_finishing_ || !queue_.empty(); };
+  if (flush_due_) {
+    changed_.wait_until(lock, *flush_due_, has_news);
+  } else {
+    changed_.wait(lock, has_news);
   }
+  if (queue_.empty()) return std::nullopt;
+  Entry entry = std::move(queue_.front());
+  queue_.pop_front();
+  changed_.notify_all();
+  return entry;
+}
+
+bool Recording::isDone() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return is_finishing_ && queue_.empty();
 }
 
 void Recording::writeEntry(const Entry& entry) {
@@ -116,11 +150,42 @@ void Recording::writeEntry(const Entry& entry) {
   if (messages_ % kSpaceCheckInterval == 0 && !hasSpace()) {
     return fail("the disk has too little free space left");
   }
+  errno = 0;
   try {
-    entry(bag_);
+    entry(*bag_);
+    if (bag_->getChunkThreshold() == 0) bag_->setChunkThreshold(kChunkThreshold);  // see flush()
     ++messages_;
+    size_ = bag_->getSize() - uncounted_size_;
   } catch (const std::exception& failure) {
-    fail(failure.what());
+    return fail(describe(failure));
+  }
+  if (!flush_due_) flush_due_ = std::chrono::steady_clock::now() + kFlushInterval;
+}
+
+void Recording::flush() {
+  flush_due_.reset();
+  if (failed_) return;
+  errno = 0;
+  try {
+    // Ends the open chunk, which writes it. The next message makes a chunk of its own: a chunk that ends because it is
+    // full lets go of the copy that rosbag keeps, and one that is ended from outside does not.
+    bag_->setChunkThreshold(0);
+  } catch (const std::exception& failure) {
+    fail(describe(failure));
+  }
+}
+
+void Recording::close() {
+  errno = 0;
+  try {
+    bag_->close();
+    std::filesystem::rename(path_ + kActive, path_);
+  } catch (const std::exception& failure) {
+    fail(describe(failure));
+    is_unfinished_ = true;
+    if (!bag_->isOpen()) return;
+    error_ += "; `rosbag reindex` recovers what was written";
+    abandon(std::move(bag_));
   }
 }
 

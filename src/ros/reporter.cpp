@@ -29,6 +29,12 @@ std::uint8_t toConstant(Mode mode) {
   return Status::UNKNOWN;
 }
 
+constexpr std::size_t kMostCommandsKept = 100000;  // some 40 MB
+
+constexpr char kHistoryIsCut[] =
+    "more commands were taken since the last reset than are kept (100000), so the bag would not hold the whole run; "
+    "record from the start, or reset";
+
 }  // namespace
 
 Reporter::Reporter(const Parameters& parameters, const Sources& sources, const StimulusCounters& counters,
@@ -37,7 +43,10 @@ Reporter::Reporter(const Parameters& parameters, const Sources& sources, const S
       sources_(sources),
       topics_(makeTopics(sources.organs, resolve)),
       frames_{parameters.world_frame, parameters.frame_prefix, parameters.stations},
-      counters_(counters) {}
+      counters_(counters),
+      recorder_({parameters.recording_directory,
+                 static_cast<std::uint64_t>(parameters.recording_split_size),
+                 {parameters.recording_compression, parameters.recording_minimum_free_space, sources.node}}) {}
 
 Reporter::Topics Reporter::makeTopics(const std::vector<std::string>& organs, const Resolve& resolve) {
   Topics topics;
@@ -57,24 +66,27 @@ Reporter::Topics Reporter::makeTopics(const std::vector<std::string>& organs, co
 }
 
 void Reporter::onState(const SnapshotPtr& snapshot) {
-  if (!marker_settings_) {
-    marker_settings_ = makeMarkerSettings(parameters_, *snapshot);
-    publish(topics_.tf_static, shared(staticTransforms(*snapshot, frames_)));
-  }
+  if (!marker_settings_) marker_settings_ = makeMarkerSettings(parameters_, *snapshot);
   if (snapshot->epoch != history_epoch_) {
     history_.clear();
+    history_is_cut_ = false;
     history_epoch_ = snapshot->epoch;
   }
+  if (last_stamp_.isZero()) publish(topics_.tf_static, shared(staticTransforms(*snapshot, frames_)));
+  if (snapshot->stamp < last_stamp_) goBack(*snapshot);
+  const bool is_new = snapshot->stamp != std::exchange(last_stamp_, snapshot->stamp);
   for (const OrganSnapshot& organ : snapshot->organs) {
     send(topics_.states.at(organ.id), snapshot->stamp, shared(toMessage(organ, *snapshot, parameters_.world_frame)));
   }
-  sendTransforms(*snapshot);
+  // tf2 warns about repeated stamps.
+  if (is_new) send(topics_.tf, snapshot->stamp, shared(movingTransforms(*snapshot, frames_)));
   recordMarkers(*snapshot);
 }
 
 void Reporter::onCommand(const simulation::AppliedCommand& command, const Snapshot& snapshot) {
-  history_.push_back(shared(toMessage(command, snapshot, parameters_.world_frame)));
-  send(topics_.applied, snapshot.stamp, history_.back());
+  Message message = shared(toMessage(command, snapshot, parameters_.world_frame));
+  send(topics_.applied, snapshot.stamp, message);
+  keep(std::move(message));
 }
 
 void Reporter::onStimuli(const Snapshot& snapshot) {
@@ -82,7 +94,7 @@ void Reporter::onStimuli(const Snapshot& snapshot) {
 }
 
 void Reporter::onStatus(const RunStatus& status, const Snapshot& snapshot) {
-  dropFailedRecording();
+  if (const auto failure = recorder_.takeFailure()) warn(*failure);
   Status message;
   message.header = makeHeader(snapshot, parameters_.world_frame);
   message.mode = toConstant(status.mode);
@@ -98,39 +110,33 @@ void Reporter::onStatus(const RunStatus& status, const Snapshot& snapshot) {
   message.overruns = status.overruns;
   message.stimuli_accepted = counters_.of(StimulusFate::accepted);
   message.stimuli_refused = counters_.refused();
-  message.recording = recording_ ? recording_->path() : "";
-  send(topics_.status, snapshot.stamp, shared(std::move(message)));
+  message.recording = recorder_.path();
+  const Message shown = shared(std::move(message));
+  send(topics_.status, snapshot.stamp, shown);
+  if (!recorder_.isFull() || history_is_cut_) return;
+  if (!splitRecording(snapshot)) record(topics_.status, snapshot.stamp, shown);
 }
 
 std::optional<std::string> Reporter::startRecording(const std::string& file, const Snapshot& snapshot) {
-  if (recording_) return "already recording " + recording_->path();
-  try {
-    const std::string path = node::recordingPath(parameters_.recording_directory, file.empty() ? datedFile() : file);
-    setRecording(std::make_unique<Recording>(
-        path,
-        RecordingSettings{parameters_.recording_compression, parameters_.recording_minimum_free_space, sources_.node}));
-  } catch (const std::exception& refusal) {
-    return refusal.what();
-  }
-  recordPreamble(snapshot);
+  if (history_is_cut_) return kHistoryIsCut;
+  if (auto refusal = recorder_.start(file.empty() ? datedFile() : file)) return refusal;
+  beginBag(snapshot);
+  recordState(snapshot);
   return std::nullopt;
 }
 
-std::unique_ptr<Recording> Reporter::takeRecording() {
-  std::unique_ptr<Recording> recording = std::move(recording_);
-  setRecording(nullptr);
-  return recording;
+std::optional<std::string> Reporter::splitRecording(const Snapshot& snapshot) {
+  if (recorder_.recording() && history_is_cut_) return kHistoryIsCut;
+  if (auto refusal = recorder_.split()) return refusal;
+  beginBag(snapshot);
+  recordState(snapshot);
+  return std::nullopt;
 }
 
-std::string Reporter::recordingPath() const {
-  const std::lock_guard<std::mutex> lock(path_mutex_);
-  return recording_path_;
-}
+std::unique_ptr<Recording> Reporter::takeRecording() { return recorder_.take(); }
 
-Message Reporter::textMessage(const std::string& text) {
-  std_msgs::String message;
-  message.data = text;
-  return shared(std::move(message));
+void Reporter::publishSources() {
+  for (const auto& [topic, message] : sources()) publish(topic, message);
 }
 
 void Reporter::send(const Topic& topic, const ros::Time& stamp, const Message& message) {
@@ -139,22 +145,34 @@ void Reporter::send(const Topic& topic, const ros::Time& stamp, const Message& m
 }
 
 void Reporter::record(const Topic& topic, const ros::Time& stamp, const Message& message) {
-  if (!recording_) return;
-  std::visit([&](const auto& content) { recording_->write(topic.name, topic.is_latched, stamp, content); }, message);
+  Recording* recording = recorder_.recording();
+  if (!recording) return;
+  std::visit([&](const auto& content) { recording->write(topic.name, topic.is_latched, stamp, content); }, message);
 }
 
-void Reporter::sendTransforms(const Snapshot& snapshot) {
-  if (snapshot.stamp <= last_tf_stamp_) return;  // tf2 warns about repeated stamps
-  last_tf_stamp_ = snapshot.stamp;
-  send(topics_.tf, snapshot.stamp, shared(movingTransforms(snapshot, frames_)));
+void Reporter::goBack(const Snapshot& snapshot) {
+  // Listeners forget what they hold when time runs backwards, and a bag in which it does cannot be played.
+  publishSources();
+  publish(topics_.tf_static, shared(staticTransforms(snapshot, frames_)));
+  if (!recorder_.recording()) return;
+  if (history_is_cut_) return recorder_.stop(kHistoryIsCut);
+  if (!recorder_.split()) beginBag(snapshot);
 }
 
-void Reporter::recordPreamble(const Snapshot& snapshot) {
-  record(topics_.parameters, snapshot.stamp, textMessage(sources_.parameters));
-  record(topics_.scenario, snapshot.stamp, textMessage(sources_.scenario));
-  if (!sources_.protocol.empty()) record(topics_.protocol, snapshot.stamp, textMessage(sources_.protocol));
+void Reporter::keep(Message command) {
+  history_is_cut_ = history_.size() == kMostCommandsKept;
+  if (!history_is_cut_) history_.push_back(std::move(command));
+}
+
+void Reporter::beginBag(const Snapshot& snapshot) {
+  recorded_markers_.reset();
+  for (const auto& [topic, message] : sources()) record(topic, snapshot.stamp, message);
   record(topics_.tf_static, snapshot.stamp, shared(staticTransforms(snapshot, frames_)));
-  for (const auto& command : history_) record(topics_.applied, snapshot.stamp, command);
+  for (const Message& command : history_) record(topics_.applied, snapshot.stamp, command);
+  if (Recording* recording = recorder_.recording()) recording->countFromHere();
+}
+
+void Reporter::recordState(const Snapshot& snapshot) {
   record(topics_.stimuli, snapshot.stamp, shared(toStimuli(snapshot, parameters_.world_frame)));
   for (const OrganSnapshot& organ : snapshot.organs) {
     record(topics_.states.at(organ.id), snapshot.stamp, shared(toMessage(organ, snapshot, parameters_.world_frame)));
@@ -164,23 +182,23 @@ void Reporter::recordPreamble(const Snapshot& snapshot) {
 }
 
 void Reporter::recordMarkers(const Snapshot& snapshot) {
-  if (!recording_ || parameters_.recording_marker_every == 0) return;
+  if (!recorder_.recording() || parameters_.recording_marker_every == 0) return;
   const bool is_first = !recorded_markers_;
   if (is_first) recorded_markers_.emplace(*marker_settings_);
   if (!is_first && snapshot.step_index % static_cast<std::uint64_t>(parameters_.recording_marker_every) != 0) return;
   record(topics_.markers, snapshot.stamp, shared(recorded_markers_->next(snapshot)));
 }
 
-void Reporter::dropFailedRecording() {
-  if (!recording_ || !recording_->failed()) return;
-  warn(takeRecording()->finish());
-}
-
-void Reporter::setRecording(std::unique_ptr<Recording> recording) {
-  recording_ = std::move(recording);
-  recorded_markers_.reset();
-  const std::lock_guard<std::mutex> lock(path_mutex_);
-  recording_path_ = recording_ ? recording_->path() : "";
+std::vector<std::pair<Reporter::Topic, Message>> Reporter::sources() const {
+  const auto text = [](const std::string& yaml) {
+    std_msgs::String message;
+    message.data = yaml;
+    return shared(std::move(message));
+  };
+  std::vector<std::pair<Topic, Message>> messages = {{topics_.parameters, text(sources_.parameters)},
+                                                     {topics_.scenario, text(sources_.scenario)}};
+  if (!sources_.protocol.empty()) messages.emplace_back(topics_.protocol, text(sources_.protocol));
+  return messages;
 }
 
 std::string Reporter::datedFile() const {

@@ -8,7 +8,8 @@ Signals::Signals() {
   sigemptyset(&set_);
   sigaddset(&set_, SIGINT);
   sigaddset(&set_, SIGTERM);
-  sigaddset(&set_, SIGHUP);  // the terminal is gone
+  sigaddset(&set_, SIGHUP);       // the terminal is gone
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is like a full disk
   pthread_sigmask(SIG_BLOCK, &set_, nullptr);
 }
 

@@ -9,24 +9,27 @@ namespace {
 
 constexpr std::size_t kMostStimuliWaiting = 256;
 
+const std::optional<std::string> kFollows = "~clock_mode is follow: whoever publishes /clock says how fast time passes";
+
 std::string count(std::uint32_t steps) { return std::to_string(steps) + (steps == 1 ? " step" : " steps"); }
 
 }  // namespace
 
 SimulationLoop::SimulationLoop(simulation::Simulation simulation, const Settings& settings, Clock& clock,
                                StimulusCounters& counters, RunListener& listener)
-    : clock_(clock),
+    : settings_(settings),
+      clock_(clock),
       listener_(listener),
       run_(
           std::move(simulation), [&clock] { return clock.tick(); }, counters, listener),
-      pacer_(settings.step, settings.real_time_factor),
+      pacer_(settings.step, settings.follows_clock ? 0.0 : settings.real_time_factor),
       mode_(settings.start_paused ? Mode::paused : Mode::running),
       queue_(kMostStimuliWaiting) {}
 
 SimulationLoop::~SimulationLoop() { stop(); }
 
 void SimulationLoop::start() {
-  pacer_.start(std::chrono::steady_clock::now());
+  if (mode_ == Mode::running) beginRunning();
   showStatus();
   clock_.flush();
   thread_ = std::thread([this] { run(); });
@@ -47,7 +50,10 @@ Answer SimulationLoop::resume() {
 }
 
 Answer SimulationLoop::reset() {
-  return ask([this](const Reply& reply) { resetNow(reply); });
+  return ask([this](const Reply& reply) {
+    resetNow();
+    reply->set_value(answer(true, "back at step 0"));
+  });
 }
 
 Answer SimulationLoop::step(std::uint32_t steps) {
@@ -56,7 +62,7 @@ Answer SimulationLoop::step(std::uint32_t steps) {
 
 Answer SimulationLoop::setRealTimeFactor(double factor) {
   return ask([this, factor](const Reply& reply) {
-    const std::optional<std::string> fault = findFactorFault(factor);
+    const std::optional<std::string> fault = settings_.follows_clock ? kFollows : findFactorFault(factor);
     if (!fault) pacer_.setFactor(factor, std::chrono::steady_clock::now());
     showStatus();
     reply->set_value(answer(!fault, fault.value_or("applied")));
@@ -76,6 +82,15 @@ Answer SimulationLoop::atBoundary(const std::function<std::optional<std::string>
     showStatus();
     reply->set_value(answer(!failure, failure.value_or("")));
   });
+}
+
+void SimulationLoop::hearClock(const ros::Time& now) {
+  clock_.hear(now);
+  if (clock_waits_.exchange(true)) return;
+  queue_.push(Control([this] {
+    clock_waits_ = false;
+    if (clock_.takeBackwardJump()) jumpBack();
+  }));
 }
 
 void SimulationLoop::refreshStatus() {
@@ -147,17 +162,27 @@ void SimulationLoop::resumeNow(const Reply& reply) {
   }
   if (mode_ == Mode::paused) {
     setMode(Mode::running);
-    pacer_.start(std::chrono::steady_clock::now());
+    beginRunning();
   }
   reply->set_value(answer(true, "running"));
 }
 
-void SimulationLoop::resetNow(const Reply& reply) {
+void SimulationLoop::resetNow() {
   abortSteps("reset");
+  clock_.reset();
   run_.reset();
   setMode(mode_ == Mode::running ? Mode::running : Mode::paused);
+  if (mode_ == Mode::running) beginRunning();
+}
+
+void SimulationLoop::jumpBack() {
+  if (settings_.on_backward_jump == BackwardJump::reset) return resetNow();
+  if (mode_ == Mode::running) beginRunning();
+}
+
+void SimulationLoop::beginRunning() {
   pacer_.start(std::chrono::steady_clock::now());
-  reply->set_value(answer(true, "back at step 0"));
+  clock_.start();
 }
 
 void SimulationLoop::stepNow(const Reply& reply, std::uint32_t steps) {
@@ -209,6 +234,7 @@ void SimulationLoop::abortSteps(const std::string& why) {
 void SimulationLoop::setMode(Mode mode, const std::string& message) {
   if (mode_ == Mode::running && mode != Mode::running) {
     pacer_.stop(std::chrono::steady_clock::now());
+    clock_.stop();
     clock_.flush();
   }
   mode_ = mode;
@@ -217,7 +243,8 @@ void SimulationLoop::setMode(Mode mode, const std::string& message) {
 }
 
 void SimulationLoop::showStatus() {
-  const RunStatus status{mode_, message_, pacer_.achievedFactor(), pacer_.overruns(), pacer_.factor()};
+  const RunStatus status{mode_, message_, pacer_.achievedFactor(), pacer_.overruns() + clock_.overruns(),
+                         pacer_.factor()};
   {
     const std::lock_guard<std::mutex> lock(status_mutex_);
     status_ = status;

@@ -1,14 +1,13 @@
 /// Input that makes no sense changes nothing, is counted by reason, and leaves the simulation running.
 
-#include <diagnostic_msgs/DiagnosticArray.h>
 #include <geometry_msgs/PointStamped.h>
 #include <geometry_msgs/Vector3Stamped.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
-#include <mutex>
 
+#include "ros/diagnostics_listener.h"
 #include "ros/node_under_test.h"
 
 namespace sensory_growth::node::testing {
@@ -17,37 +16,9 @@ namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Latest diagnostic values of the stimuli.
-class StimulusDiagnostics {
- public:
-  StimulusDiagnostics() : subscriber_(node_.subscribe("/diagnostics", 10, &StimulusDiagnostics::keep, this)) {}
-
-  void waitFor(const std::string& key, const std::string& value) {
-    std::unique_lock<std::mutex> lock(mutex_);
-    EXPECT_TRUE(changed_.wait_for(lock, kPatience, [&] { return values_[key] == value; }))
-        << key << " is " << values_[key] << " instead of " << value;
-  }
-
- private:
-  void keep(const diagnostic_msgs::DiagnosticArray& array) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    for (const auto& status : array.status) {
-      if (status.name.find("stimuli") == std::string::npos) continue;
-      for (const auto& value : status.values) values_[value.key] = value.value;
-    }
-    changed_.notify_all();
-  }
-
-  ros::NodeHandle node_;
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::map<std::string, std::string> values_;
-  ros::Subscriber subscriber_;
-};
-
 TEST(BadInput, ChangesNothingAndIsCounted) {
   NodeUnderTest node;
-  StimulusDiagnostics diagnostics;
+  DiagnosticsListener diagnostics;
   ros::NodeHandle relative;
   ros::Publisher lamps = node.handle().advertise<PointSource>("point_source", 100);
   ros::Publisher lights = node.handle().advertise<LightDirection>("light_direction", 100);
@@ -95,10 +66,10 @@ TEST(BadInput, ChangesNothingAndIsCounted) {
   EXPECT_FALSE(node.applied(1).accepted);
   EXPECT_EQ(node.applied(0).id, "nobody");
 
-  diagnostics.waitFor("malformed", std::to_string(malformed));
-  diagnostics.waitFor("unknown operation", std::to_string(unknown));
-  diagnostics.waitFor("not applicable", "2");
-  diagnostics.waitFor("accepted", "0");
+  diagnostics.waitForValue("stimuli", "malformed", std::to_string(malformed));
+  diagnostics.waitForValue("stimuli", "unknown operation", std::to_string(unknown));
+  diagnostics.waitForValue("stimuli", "not applicable", "2");
+  diagnostics.waitForValue("stimuli", "accepted", "0");
 
   simulation::Simulation alone = simulationAlone();
   for (int i = 0; i < 15; ++i) ASSERT_TRUE(alone.step().ok);

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -19,7 +20,9 @@ namespace sensory_growth::node::testing {
 /// A program started by the test, with what it prints in a file.
 class ChildProcess {
  public:
-  ChildProcess(const std::vector<std::string>& command, std::string output) : output_(std::move(output)) {
+  /// It cannot make files larger than `largest_file` [byte].
+  ChildProcess(const std::vector<std::string>& command, std::string output, rlim_t largest_file = RLIM_INFINITY)
+      : output_(std::move(output)) {
     std::vector<char*> arguments;
     for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
     arguments.push_back(nullptr);
@@ -28,6 +31,8 @@ class ChildProcess {
     if (pid_ == 0) {
       dup2(file, STDOUT_FILENO);
       dup2(file, STDERR_FILENO);
+      const rlimit limit{largest_file, largest_file};
+      if (largest_file != RLIM_INFINITY) setrlimit(RLIMIT_FSIZE, &limit);
       execv(arguments[0], arguments.data());
       _exit(127);
     }
@@ -35,14 +40,20 @@ class ChildProcess {
   }
 
   ~ChildProcess() {
-    if (pid_ > 0) {
-      kill(pid_, SIGKILL);
-      waitpid(pid_, nullptr, 0);
-    }
+    if (pid_ > 0) kill();
     unlink(output_.c_str());
   }
 
-  void signal(int number) const { kill(pid_, number); }
+  pid_t pid() const { return pid_; }
+
+  void signal(int number) const { ::kill(pid_, number); }
+
+  /// Ends it as the system does that runs out of memory.
+  void kill() {
+    ::kill(pid_, SIGKILL);
+    waitpid(pid_, nullptr, 0);
+    pid_ = -1;
+  }
 
   /// Exit code; -1 and a failed test if it does not end in time, or by a signal.
   int waitForExit(std::chrono::milliseconds patience) {

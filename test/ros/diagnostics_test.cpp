@@ -36,6 +36,42 @@ TEST(LoopDiagnostics, AFaultIsAnError) {
   EXPECT_EQ(status.message, "fault: organ stem does not converge");
 }
 
+TEST(RecordingDiagnostics, AFailureIsShownUntilTheNextRecording) {
+  DiagnosticStatusWrapper off, writing, failed;
+  reportRecording("", "", off);
+  EXPECT_EQ(off.level, DiagnosticStatus::OK);
+  EXPECT_EQ(off.message, "off");
+  reportRecording("/run.bag", "", writing);
+  EXPECT_EQ(writing.message, "writing /run.bag");
+  reportRecording("", "/run.bag: No space left on device", failed);
+  EXPECT_EQ(failed.level, DiagnosticStatus::WARN);
+  EXPECT_EQ(failed.message, "failed: /run.bag: No space left on device");
+}
+
+TEST(ClockDiagnostics, ThereMustBeOneOwner) {
+  const auto level = [](ClockMode mode, const std::vector<std::string>& others) {
+    DiagnosticStatusWrapper status;
+    reportClock(mode, others, status);
+    return status.level;
+  };
+  EXPECT_EQ(level(ClockMode::publish, {}), DiagnosticStatus::OK);
+  EXPECT_EQ(level(ClockMode::publish, {"/player"}), DiagnosticStatus::ERROR);
+  EXPECT_EQ(level(ClockMode::follow, {}), DiagnosticStatus::WARN);
+  EXPECT_EQ(level(ClockMode::follow, {"/player"}), DiagnosticStatus::OK);
+  EXPECT_EQ(level(ClockMode::follow, {"/player", "/simulator"}), DiagnosticStatus::ERROR);
+}
+
+TEST(MasterDiagnostics, WarnUnlessTheMasterKnowsTheNode) {
+  const auto level = [](MasterWatch::State state) {
+    DiagnosticStatusWrapper status;
+    reportMaster(state, status);
+    return status.level;
+  };
+  EXPECT_EQ(level(MasterWatch::State::known), DiagnosticStatus::OK);
+  EXPECT_EQ(level(MasterWatch::State::unreachable), DiagnosticStatus::WARN);
+  EXPECT_EQ(level(MasterWatch::State::registered_again), DiagnosticStatus::WARN);
+}
+
 TEST(StimulusDiagnostics, WarnWhileRefusalsAreRecent) {
   StimulusCounters counters;
   counters.count(StimulusFate::malformed);

@@ -132,12 +132,10 @@ TEST(Frames, TipAndStationsAreOnTf) {
   const std::uint64_t now = node.waitForStatus("status", [](const Status&) { return true; }).step_index;
   ASSERT_TRUE(node.step(1).success);
   const OrganState state = node.state(now + 1);
-  const auto deadline = std::chrono::steady_clock::now() + kPatience;
-  while (!transforms.canTransform("world", "shoot/tip", state.header.stamp) ||
-         !transforms.canTransform("shoot/base", "shoot/station_2", state.header.stamp)) {
-    ASSERT_LT(std::chrono::steady_clock::now(), deadline) << "no transform of the tip";
-    ros::WallDuration(0.005).sleep();
-  }
+  lookUntil("the transforms of the step", [&] {
+    return transforms.canTransform("world", "shoot/tip", state.header.stamp) &&
+           transforms.canTransform("shoot/base", "shoot/station_2", state.header.stamp);
+  });
   const auto tip = transforms.lookupTransform("world", "shoot/tip", state.header.stamp);
   EXPECT_EQ(tip.transform.translation.x, state.tip.position.x);
   EXPECT_EQ(tip.transform.translation.z, state.tip.position.z);

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "ros/wait.h"
 #include "sensory_growth/AppliedCommand.h"
 #include "sensory_growth/Command.h"
 #include "sensory_growth/LightDirection.h"
@@ -23,6 +24,7 @@
 #include "sensory_growth/SetGravity.h"
 #include "sensory_growth/SetParameter.h"
 #include "sensory_growth/SetRealTimeFactor.h"
+#include "sensory_growth/SplitRecording.h"
 #include "sensory_growth/StartRecording.h"
 #include "sensory_growth/Status.h"
 #include "sensory_growth/Step.h"
@@ -32,8 +34,6 @@
 #include "sensory_growth/simulation/simulation.h"
 
 namespace sensory_growth::node::testing {
-
-constexpr std::chrono::seconds kPatience{15};
 
 /// The scenario that the launch file gives to the node and, in /test_scenario, to the test.
 inline std::string scenarioFile() { return ros::param::param<std::string>("/test_scenario", ""); }
@@ -54,7 +54,7 @@ class NodeUnderTest {
     subscribe<AppliedCommand>("applied_commands",
                               [this](const AppliedCommand& command) { applied_.push_back(command); });
     for (const ros::Subscriber& subscriber : subscribers_) {
-      waitFor("a publisher of " + subscriber.getTopic(), [&] { return subscriber.getNumPublishers() > 0; });
+      lookUntil("a publisher of " + subscriber.getTopic(), [&] { return subscriber.getNumPublishers() > 0; });
     }
     waitForStatus("first status", [](const Status& status) { return status.mode != Status::UNKNOWN; });
   }
@@ -173,7 +173,7 @@ class NodeUnderTest {
 
   template <typename Message>
   void publish(ros::Publisher& publisher, const Message& message) {
-    waitFor("a subscriber of " + publisher.getTopic(), [&] { return publisher.getNumSubscribers() > 0; });
+    lookUntil("a subscriber of " + publisher.getTopic(), [&] { return publisher.getNumSubscribers() > 0; });
     publisher.publish(message);
   }
 
@@ -193,16 +193,6 @@ class NodeUnderTest {
   void wait(const std::string& what, const Predicate& holds) {
     std::unique_lock<std::mutex> lock(mutex_);
     if (!changed_.wait_for(lock, kPatience, holds)) FAIL() << "waited in vain for " << what;
-  }
-
-  /// For what nothing notifies about, such as connections.
-  template <typename Predicate>
-  void waitFor(const std::string& what, const Predicate& holds) {
-    const auto deadline = std::chrono::steady_clock::now() + kPatience;
-    while (!holds()) {
-      if (std::chrono::steady_clock::now() > deadline) FAIL() << "waited in vain for " << what;
-      ros::WallDuration(0.005).sleep();
-    }
   }
 
   ros::NodeHandle node_;

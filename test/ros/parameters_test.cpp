@@ -80,8 +80,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadCase{"real_time_factor", std::numeric_limits<double>::infinity(), "is inf; it must be finite"},
         BadCase{"real_time_factor", -1.0, "must be from 0"}, BadCase{"real_time_factor", 1e-9, "is below 1e-6"},
         BadCase{"stations", 101, "must be from 0 to 100"}, BadCase{"stations", 2.5, "must be a whole number"},
-        BadCase{"clock_mode", "sundial", "must be one of publish, wall"},
-        BadCase{"clock_mode", "follow", "publish, wall"},
+        BadCase{"clock_mode", "sundial", "must be one of publish, follow, wall"},
+        BadCase{"reset_time", "sometimes", "must be one of keep_time, rewind"},
+        BadCase{"on_backward_jump", "panic", "must be one of reset, ignore"},
+        BadCase{"recording_split_size", 1000, "is below 1e6"}, BadCase{"recording_split_size", -1, "must be from 0"},
         BadCase{"marker_color", 7, "must be one of curvature, growth_rate, stretch, none"},
         BadCase{"world_frame", "/map", "must not begin with a slash"}, BadCase{"world_frame", "", "is empty"},
         BadCase{"recording_compression", "zip", "must be one of none, lz4, bz2"}),
@@ -91,6 +93,15 @@ TEST(Parameters, RecordingNeedsADirectory) {
   XmlRpcValue tree = minimal();
   tree["record"] = true;
   EXPECT_THAT(readParameters(tree).problems, ElementsAre("~recording_directory is required because ~record is true"));
+}
+
+TEST(Parameters, TimeIsRewoundByItsOwnerOnly) {
+  for (const char* mode : {"follow", "wall"}) {
+    XmlRpcValue tree = minimal();
+    tree["reset_time"] = "rewind";
+    tree["clock_mode"] = mode;
+    EXPECT_THAT(readParameters(tree).problems, ElementsAre(HasSubstr("needs ~clock_mode to be publish"))) << mode;
+  }
 }
 
 TEST(Parameters, AreWrittenToTheLastDigit) {

@@ -3,59 +3,20 @@
 #include <gtest/gtest.h>
 #include <rosgraph_msgs/Clock.h>
 #include <std_msgs/String.h>
-#include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <future>
 
 #include "ros/bag_contents.h"
-#include "ros/child_process.h"
+#include "ros/diagnostics_listener.h"
 #include "ros/node_under_test.h"
+#include "ros/process_fixture.h"
 
 namespace sensory_growth::node::testing {
 namespace {
 
 using namespace std::chrono_literals;
-
-class Process : public ::testing::Test {
- protected:
-  Process() : directory_(std::filesystem::temp_directory_path() / ("process_" + std::to_string(getpid()))) {
-    std::filesystem::create_directory(directory_);
-    name_ = "/child_" + std::to_string(++started_);  // a name of its own: the master forgets a killed node late
-    set("scenario", scenarioFile());
-    set("growth_time_scale", 60.0);
-    set("recording_directory", directory_.string());
-    set("recording_minimum_free_space", 0.0);
-  }
-
-  ~Process() override {
-    ros::param::del(name_);
-    std::filesystem::remove_all(directory_);
-  }
-
-  template <typename Value>
-  void set(const std::string& parameter, const Value& value) {
-    ros::param::set(name_ + "/" + parameter, value);
-  }
-
-  ChildProcess start() {
-    return ChildProcess({NODE_EXECUTABLE, "__name:=" + name_.substr(1)}, directory_ / "output.txt");
-  }
-
-  void expectRefusal(const std::vector<std::string>& messages) {
-    ChildProcess child = start();
-    EXPECT_EQ(child.waitForExit(kPatience), 1);
-    for (const std::string& message : messages) {
-      EXPECT_NE(child.printed().find(message), std::string::npos) << message << " is not in\n" << child.printed();
-    }
-  }
-
-  static int started_;
-  const std::filesystem::path directory_;
-  std::string name_;
-};
-
-int Process::started_ = 0;
 
 TEST_F(Process, ListsAllParameterErrorsAndExitsNonZero) {
   ros::param::del(name_ + "/growth_time_scale");
@@ -131,6 +92,47 @@ TEST_F(Process, InterruptedWhileTheBagLagsBehindLeavesItClosed) {
   EXPECT_GE(readTopic<OrganState>(bag, name_ + "/organs/shoot/state").size(), 101u);
 }
 
+TEST_F(Process, KilledWhileRecordingLosesAFifthOfASecondAtMost) {
+  constexpr double kStepsPerSecond = 50.0;
+  set("scenario", ros::param::param<std::string>("/slow_scenario", ""));
+  set("record", true);
+  set("recording_file", std::string("killed.bag"));
+  set("real_time_factor", kStepsPerSecond);  // a step takes a second of ROS time
+  ChildProcess child = start();
+  NodeUnderTest node(name_);
+  node.waitForStatus("some steps", [](const Status& s) { return s.step_index >= 60; });
+  child.kill();
+  const std::uint64_t published = node.waitForStatus("status", [](const Status&) { return true; }).step_index;
+  const std::size_t states = recoveredStates((directory_ / "killed.bag.active").string());
+  EXPECT_GE(states + 0.2 * kStepsPerSecond, published + 1);  // step 0 is a state, too
+}
+
+TEST_F(Process, AFullDiskEndsTheRecordingAndNothingElse) {
+  set("scenario", ros::param::param<std::string>("/slow_scenario", ""));
+  set("start_paused", true);
+  set("record", true);
+  set("recording_file", std::string("cut_short.bag"));
+  set("recording_compression", std::string("none"));
+  ChildProcess child = start(200000);
+  NodeUnderTest node(name_);
+  DiagnosticsListener diagnostics;
+  node.stepTo(200, 0);
+  const std::string why = diagnostics.waitFor("recording", "failed: ");
+  EXPECT_NE(why.find("File too large"), std::string::npos) << why;
+  EXPECT_EQ(node.waitForStatus("the step", [](const Status& s) { return s.step_index == 200; }).recording, "");
+
+  StartRecording::Request again;
+  again.file = "again.bag";
+  EXPECT_TRUE(node.call<StartRecording>("start_recording", again).success);
+  EXPECT_TRUE(node.call<StopRecording>("stop_recording").success);
+  diagnostics.waitFor("recording", "off");
+
+  child.signal(SIGINT);
+  EXPECT_EQ(child.waitForExit(5s), 0) << child.printed();
+  EXPECT_NE(child.printed().find("cut_short.bag.active stopped after"), std::string::npos) << child.printed();
+  EXPECT_GT(recoveredStates((directory_ / "cut_short.bag.active").string()), 3u);
+}
+
 TEST_F(Process, InterruptedWhileAServiceWaitsAnswersIt) {
   set("scenario", ros::param::param<std::string>("/slow_scenario", ""));  // one that can be stepped for ever
   set("start_paused", true);
@@ -147,6 +149,48 @@ TEST_F(Process, InterruptedWhileAServiceWaitsAnswersIt) {
     EXPECT_EQ(child.waitForExit(5s), 0) << child.printed();
     EXPECT_FALSE(waiting.get());
   }
+}
+
+TEST_F(Process, InterruptedWhileItWaitsForAClockItEnds) {
+  set("clock_mode", std::string("follow"));
+  ChildProcess child = start();
+  lookUntil("the node to wait", [&] { return child.printed().find("waiting for somebody") != std::string::npos; });
+  child.signal(SIGINT);
+  EXPECT_EQ(child.waitForExit(5s), 0) << child.printed();
+}
+
+TEST_F(Process, InterruptedWhileTheClockStandsStillItEnds) {
+  set("clock_mode", std::string("follow"));
+  ros::NodeHandle handle;
+  ros::Publisher publisher = handle.advertise<rosgraph_msgs::Clock>("/clock", 1, true);
+  rosgraph_msgs::Clock clock;
+  clock.clock = ros::Time(100.0);
+  publisher.publish(clock);
+  ChildProcess child = start();
+  {
+    NodeUnderTest node(name_);
+    const Status status = node.waitForStatus("running", [](const Status& s) { return s.mode == Status::RUNNING; });
+    EXPECT_EQ(status.step_index, 0u);
+  }
+  child.signal(SIGTERM);
+  EXPECT_EQ(child.waitForExit(5s), 0) << child.printed();
+}
+
+TEST_F(Process, ASecondOwnerOfTheClockIsReported) {
+  set("start_paused", true);
+  ChildProcess child = start();
+  NodeUnderTest node(name_);
+  DiagnosticsListener diagnostics;
+  diagnostics.waitFor("clock", "this node alone");
+  {
+    ros::NodeHandle handle;
+    ros::Publisher clock = handle.advertise<rosgraph_msgs::Clock>("/clock", 1);
+    diagnostics.waitFor("clock", "another node publishes /clock too");
+  }
+  diagnostics.waitFor("clock", "this node alone");
+  child.signal(SIGINT);
+  EXPECT_EQ(child.waitForExit(5s), 0);
+  EXPECT_NE(child.printed().find("another node publishes /clock too"), std::string::npos) << child.printed();
 }
 
 TEST_F(Process, EndsByItselfWhenFinished) {

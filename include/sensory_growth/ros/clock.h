@@ -1,6 +1,7 @@
 #pragma once
 
-/// ROS time of the states: exactly one owner (ros.md 27), never zero, strictly increasing, also across a reset.
+/// ROS time of the states: exactly one owner (ros.md 27), never zero, strictly increasing but where it is said to go
+/// back.
 
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
@@ -8,9 +9,11 @@
 
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "sensory_growth/ros/followed_time.h"
 #include "sensory_growth/ros/parameters.h"
 
 namespace sensory_growth::node {
@@ -24,11 +27,37 @@ std::vector<std::string> otherClockPublishers();
 /// ROS time after `ticks` steps of `step` [s]: computed from the counter, so that nothing accumulates.
 ros::Time stampOf(std::uint64_t ticks, double step);
 
+struct ClockSettings {
+  ClockMode mode = ClockMode::publish;
+  double step = 0.0;  ///< ROS time between two states [s]
+  double rate = 0.0;  ///< most messages on /clock [1/s of wall time]
+  ResetTime reset_time = ResetTime::keep_time;
+};
+
 /// Thread-safe.
 class Clock {
  public:
-  /// `step` is the ROS time between two states [s], `rate` the most messages on /clock [1/s of wall time].
-  Clock(ClockMode mode, double step, double rate, ros::NodeHandle node);
+  /// To follow a clock, ROS time must be valid.
+  Clock(const ClockSettings& settings, ros::NodeHandle node);
+
+  /// Running begins, or ends. What a clock that is followed says matters in between.
+  void start();
+  void stop();
+
+  /// Whether a step may be taken; always, unless a clock is followed.
+  bool isDue();
+
+  /// The clock that is followed says `now`.
+  void hear(const ros::Time& now);
+
+  /// True if the clock that is followed went backwards since the last call.
+  bool takeBackwardJump();
+
+  /// Steps that were given up because the clock that is followed was too far ahead, counted once each time.
+  std::uint64_t overruns();
+
+  /// A reset: the next state has the stamp of the very first, if that is how time is reset.
+  void reset();
 
   /// The stamp of a new state, later than all before; published on /clock unless `rate` forbids it just now.
   ros::Time tick();
@@ -43,12 +72,12 @@ class Clock {
  private:
   void publish();
 
-  const ClockMode mode_;
-  const double step_;
+  const ClockSettings settings_;
   const ros::WallDuration shortest_interval_;
   ros::Publisher publisher_;
 
   std::mutex mutex_;  // guards what follows
+  std::optional<FollowedTime> followed_;
   std::uint64_t ticks_ = 0;
   ros::Time stamp_;
   bool is_published_ = true;

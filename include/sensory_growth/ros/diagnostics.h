@@ -9,9 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "sensory_growth/ros/clock.h"
+#include "sensory_growth/ros/master_watch.h"
 #include "sensory_growth/ros/simulation_loop.h"
 #include "sensory_growth/ros/snapshot.h"
 #include "sensory_growth/ros/stimulus_counters.h"
+#include "sensory_growth/ros/wall_throttle.h"
 
 namespace sensory_growth::node {
 
@@ -25,15 +28,27 @@ void reportLoop(const RunStatus& loop, const Snapshot& snapshot, diagnostic_upda
 void reportStimuli(const StimulusCounters& counters, std::uint64_t refused_before,
                    diagnostic_updater::DiagnosticStatusWrapper& status);
 
+/// WARN if recording ended early because of `failure`, which is empty otherwise. `path` is that of the open bag, or
+/// empty.
+void reportRecording(const std::string& path, const std::string& failure,
+                     diagnostic_updater::DiagnosticStatusWrapper& status);
+
+void reportMaster(MasterWatch::State state, diagnostic_updater::DiagnosticStatusWrapper& status);
+
+/// ERROR if /clock has more than one publisher, WARN if it has none; `others` are the publishers but for this node.
+void reportClock(ClockMode mode, const std::vector<std::string>& others,
+                 diagnostic_updater::DiagnosticStatusWrapper& status);
+
 class Diagnostics {
  public:
   struct Sources {
     std::function<SnapshotPtr()> snapshot;
     std::function<RunStatus()> loop;
-    std::function<std::string()> recording;  ///< path of the open bag, or empty
+    std::function<std::string()> recording;          ///< path of the open bag, or empty
+    std::function<std::string()> recording_failure;  ///< why it ended early, or empty
     std::vector<std::string> organs;
     const StimulusCounters* counters = nullptr;
-    bool owns_clock = false;
+    ClockMode clock_mode = ClockMode::publish;
   };
 
   Diagnostics(ros::NodeHandle node, ros::NodeHandle private_node, Sources sources);
@@ -44,6 +59,8 @@ class Diagnostics {
  private:
   Sources sources_;
   std::uint64_t refused_before_ = 0;
+  WallThrottle clock_warnings_;
+  MasterWatch master_;
   diagnostic_updater::Updater updater_;
 };
 

@@ -39,6 +39,7 @@ inline constexpr char kSetParameter[] = "set_parameter";
 inline constexpr char kSetGravity[] = "set_gravity";
 inline constexpr char kSetRealTimeFactor[] = "set_real_time_factor";
 inline constexpr char kStartRecording[] = "start_recording";
+inline constexpr char kSplitRecording[] = "split_recording";
 inline constexpr char kStopRecording[] = "stop_recording";
 
 // Ids of the stimuli that topics of standard types set.

@@ -15,10 +15,12 @@
 #include "sensory_growth/SetGravity.h"
 #include "sensory_growth/SetParameter.h"
 #include "sensory_growth/SetRealTimeFactor.h"
+#include "sensory_growth/SplitRecording.h"
 #include "sensory_growth/StartRecording.h"
 #include "sensory_growth/Step.h"
 #include "sensory_growth/StopRecording.h"
 #include "sensory_growth/ros/clock.h"
+#include "sensory_growth/ros/clock_listener.h"
 #include "sensory_growth/ros/diagnostics.h"
 #include "sensory_growth/ros/loaded_scenario.h"
 #include "sensory_growth/ros/parameters.h"
@@ -43,6 +45,7 @@ class Node {
 
  private:
   void startRecording(const StartRecording::Request& request, StartRecording::Response& response);
+  void splitRecording(SplitRecording::Response& response);
   void stopRecording(StopRecording::Response& response);
   void advertiseServices();
   void startTimers();
@@ -54,7 +57,7 @@ class Node {
   ros::NodeHandle node_, private_node_;
 
   // A service that blocks must not keep others waiting, nor the topics: each kind has its own queue and thread.
-  ros::CallbackQueue control_queue_, step_queue_;
+  ros::CallbackQueue control_queue_, step_queue_, health_queue_;  // the last asks the master, which may be gone
 
   StimulusCounters counters_;
   Clock clock_;
@@ -62,9 +65,10 @@ class Node {
   StimulusIntake intake_;  // before the loop, so that it hears the transforms of the first state
   SimulationLoop loop_;
   std::unique_ptr<Diagnostics> diagnostics_;
+  std::unique_ptr<ClockListener> clock_listener_;
   std::vector<ros::ServiceServer> services_;
   std::vector<ros::WallTimer> timers_;
-  ros::AsyncSpinner topic_spinner_, control_spinner_, step_spinner_;
+  ros::AsyncSpinner topic_spinner_, control_spinner_, step_spinner_, health_spinner_;
 };
 
 /// Everything from the parameters to the exit code. `ros::init` comes before.

@@ -13,7 +13,20 @@ namespace sensory_growth::node {
 /// Who owns ROS time.
 enum class ClockMode {
   publish,  ///< this node publishes /clock
+  follow,   ///< another node publishes /clock, and steps are taken as it goes on
   wall,     ///< nobody: ROS time is wall time
+};
+
+/// What becomes of ROS time on a reset.
+enum class ResetTime {
+  keep_time,  ///< it goes on
+  rewind,     ///< it begins anew
+};
+
+/// What becomes of the simulation when a clock that is followed goes backwards.
+enum class BackwardJump {
+  reset,   ///< back to step 0
+  ignore,  ///< it goes on growing
 };
 
 enum class MarkerShape { tube, line };
@@ -30,6 +43,8 @@ struct Parameters {
   int stations = 0;          ///< frames per organ at equal fractions of arc length, between base and tip
 
   ClockMode clock_mode = ClockMode::publish;
+  ResetTime reset_time = ResetTime::keep_time;
+  BackwardJump on_backward_jump = BackwardJump::reset;
   double clock_rate = 1000.0;      ///< most messages on /clock [1/s of wall time]
   int threads = 0;                 ///< most that organs are shared out to; 0: one per processor
   double growth_time_scale = 0.0;  ///< growth seconds per ROS second [-]; required
@@ -43,6 +58,7 @@ struct Parameters {
   std::string recording_file;       ///< of `record`; empty: made from the scenario's name and the time
   Compression recording_compression = Compression::lz4;
   int recording_marker_every = 1;               ///< steps between recorded markers; 0: none
+  double recording_split_size = 0.0;            ///< another bag begins when one has grown by this [byte]; 0: never
   double recording_minimum_free_space = 1.0e9;  ///< recording stops when the disk has less [byte]
 
   double marker_rate = 20.0;  ///< [1/s of wall time]

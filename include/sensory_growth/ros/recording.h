@@ -1,19 +1,23 @@
 #pragma once
 
 /// One bag being written, on a thread of its own. Nothing that was handed in is lost while the disk takes it: a full
-/// queue makes the caller wait.
+/// queue makes the caller wait. What was handed in is in the file within 0.1 s of wall time, so that little is lost if
+/// the process is killed.
 
 #include <ros/message_traits.h>
 #include <ros/time.h>
 #include <rosbag/bag.h>
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
 #include <functional>
 #include <map>
+#include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -29,7 +33,7 @@ struct RecordingSettings {
 };
 
 struct RecordingSummary {
-  std::string path;
+  std::string path;  ///< where the bag is; unfinished if it could not be closed
   std::uint64_t messages = 0;
   std::string error;  ///< why recording ended early; empty if it did not
 };
@@ -71,7 +75,17 @@ class Recording {
 
   const std::string& path() const { return path_; }
 
-  /// Writes what is queued, closes the bag and takes the suffix away. May be called again.
+  /// What comes now is the first that size() counts.
+  void countFromHere();
+
+  /// Growth of the file so far, or a little less [byte].
+  std::uint64_t size() const { return size_; }
+
+  /// From now on nothing is taken in; what is queued is written and the bag closed without making anybody wait.
+  void finishSoon();
+
+  /// The same, but waits for it. The suffix is gone afterwards, unless the bag could not be closed. May be called
+  /// again.
   RecordingSummary finish();
 
  private:
@@ -79,7 +93,11 @@ class Recording {
 
   void push(Entry entry);
   void run();
+  std::optional<Entry> waitForEntry();
+  bool isDone();
   void writeEntry(const Entry& entry);
+  void flush();
+  void close();
   void fail(const std::string& why);
   bool hasSpace() const;
 
@@ -87,12 +105,16 @@ class Recording {
   const RecordingSettings settings_;
 
   // Of the writing thread alone, and of finish() once that has ended.
-  rosbag::Bag bag_;
+  std::unique_ptr<rosbag::Bag> bag_;
+  std::optional<std::chrono::steady_clock::time_point> flush_due_;  // nothing: all that was written is in the file
   std::map<std::string, boost::shared_ptr<ros::M_string>> headers_;
   std::uint64_t messages_ = 0;
+  std::uint64_t uncounted_size_ = 0;  // [byte]
   std::string error_;
+  bool is_unfinished_ = false;
 
   std::atomic<bool> failed_{false};
+  std::atomic<std::uint64_t> size_{0};
   std::mutex finish_mutex_;  // locked before mutex_
   std::mutex mutex_;         // guards what follows
   std::condition_variable changed_;

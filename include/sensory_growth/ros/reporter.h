@@ -10,9 +10,9 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -22,7 +22,7 @@
 #include "sensory_growth/Stimuli.h"
 #include "sensory_growth/ros/markers.h"
 #include "sensory_growth/ros/parameters.h"
-#include "sensory_growth/ros/recording.h"
+#include "sensory_growth/ros/recorder.h"
 #include "sensory_growth/ros/run.h"
 #include "sensory_growth/ros/stimulus_counters.h"
 #include "sensory_growth/ros/transforms.h"
@@ -63,11 +63,18 @@ class Reporter : public RunListener {
   /// Returns why it failed, or nothing.
   std::optional<std::string> startRecording(const std::string& file, const Snapshot& snapshot);
 
+  /// Goes on in another bag, which begins like the first, so that it runs the same without the one before. On the
+  /// thread of the run. Returns why it failed, or nothing.
+  std::optional<std::string> splitRecording(const Snapshot& snapshot);
+
   /// Hands the open bag over, to be finished elsewhere; null if there is none. On the thread of the run.
   std::unique_ptr<Recording> takeRecording();
 
   /// Path of the bag being written; empty if there is none. From any thread.
-  std::string recordingPath() const;
+  std::string recordingPath() const { return recorder_.path(); }
+
+  /// Why recording ended early; empty if it did not, or has begun again. From any thread.
+  std::string recordingFailure() const { return recorder_.failure(); }
 
  protected:
   struct Topic {
@@ -83,10 +90,11 @@ class Reporter : public RunListener {
   /// Called on the thread of the run with every message but the markers, once.
   virtual void publish(const Topic& topic, const Message& message) = 0;
 
-  /// Called when the bag had to be closed early.
+  /// Called when recording ended early.
   virtual void warn(const RecordingSummary& summary) = 0;
 
-  static Message textMessage(const std::string& text);
+  /// Publishes the texts that the run started from.
+  void publishSources();
 
   const Parameters parameters_;
   const Sources sources_;
@@ -97,25 +105,24 @@ class Reporter : public RunListener {
   static Topics makeTopics(const std::vector<std::string>& organs, const Resolve& resolve);
   void send(const Topic& topic, const ros::Time& stamp, const Message& message);
   void record(const Topic& topic, const ros::Time& stamp, const Message& message);
-  void sendTransforms(const Snapshot& snapshot);
-  void recordPreamble(const Snapshot& snapshot);
+  void goBack(const Snapshot& snapshot);
+  void keep(Message command);
+  void beginBag(const Snapshot& snapshot);
+  void recordState(const Snapshot& snapshot);
   void recordMarkers(const Snapshot& snapshot);
-  void dropFailedRecording();
-  void setRecording(std::unique_ptr<Recording> recording);
+  std::vector<std::pair<Topic, Message>> sources() const;
   std::string datedFile() const;
 
   const FrameSettings frames_;
   const StimulusCounters& counters_;
 
   // Of the run's thread alone.
-  std::unique_ptr<Recording> recording_;
+  Recorder recorder_;
   std::optional<MarkerStream> recorded_markers_;
-  std::vector<Message> history_;  // commands since the last reset
+  std::vector<Message> history_;  // commands since the last reset, as far as they are kept
+  bool history_is_cut_ = false;
   std::uint32_t history_epoch_ = 0;
-  ros::Time last_tf_stamp_;
-
-  mutable std::mutex path_mutex_;
-  std::string recording_path_;
+  ros::Time last_stamp_;
 };
 
 }  // namespace sensory_growth::node

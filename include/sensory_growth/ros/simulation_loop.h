@@ -38,6 +38,8 @@ class SimulationLoop {
     double step = 0.0;  ///< ROS time of a step [s]
     double real_time_factor = 1.0;
     bool start_paused = false;
+    bool follows_clock = false;  ///< steps are due when the clock says so; the factor is without meaning
+    BackwardJump on_backward_jump = BackwardJump::reset;
   };
 
   /// Most steps one call of step() may ask for.
@@ -69,6 +71,9 @@ class SimulationLoop {
   /// Queues a stimulus for the next step boundary; false if too many wait.
   bool send(const simulation::StimulusCommand& stimulus) { return queue_.push(stimulus); }
 
+  /// The clock that is followed says `now`.
+  void hearClock(const ros::Time& now);
+
   /// Shows the status again soon, because something that it counts has changed.
   void refreshStatus();
 
@@ -91,16 +96,20 @@ class SimulationLoop {
   void execute(const Command& command);
   void pauseNow(const Reply& reply);
   void resumeNow(const Reply& reply);
-  void resetNow(const Reply& reply);
+  void resetNow();
   void stepNow(const Reply& reply, std::uint32_t steps);
   simulation::AppliedCommand applyNow(const simulation::Command& command);
-  bool wantsStep() const { return step_request_ || mode_ == Mode::running; }
+  bool wantsStep() { return step_request_ || (mode_ == Mode::running && clock_.isDue()); }
+  void jumpBack();
+  void beginRunning();
   void advance();
   void abortSteps(const std::string& why);
   void setMode(Mode mode, const std::string& message = "");
   void showStatus();
 
-  // Of the loop's thread alone.
+  const Settings settings_;
+
+  // Of the loop's thread alone, but for the clock.
   Clock& clock_;
   RunListener& listener_;
   Run run_;
@@ -111,6 +120,7 @@ class SimulationLoop {
 
   CommandQueue queue_;
   std::atomic<bool> refresh_waits_{false};
+  std::atomic<bool> clock_waits_{false};
 
   mutable std::mutex status_mutex_;  // guards what follows; nothing else is locked while it is held
   RunStatus status_;
