@@ -163,7 +163,9 @@ RelaxationReport DynamicRelaxation::reportAtStart(const Timing& times) {
 
 /// Residual and kinetic energy as of the last evaluation of the forces.
 void DynamicRelaxation::measure(RelaxationReport& report) const {
-  report.residual = motion_->residual();
+  const Residual residual = motion_->residual();
+  report.residual = residual.value;
+  report.worst_element = residual.element;
   report.kinetic_energy = motion_->kineticEnergy();
   const bool finite = std::isfinite(report.residual) && std::isfinite(report.kinetic_energy);
   if (!finite) report.reason = RelaxationReason::not_finite;

@@ -313,6 +313,18 @@ TurnField ReducedEnergy::eigenvector(const TurnField& towards) const {
   return vector;
 }
 
+std::size_t ReducedEnergy::worstElement() const {
+  TurnField gradient;
+  std::vector<rod::Matrix3> diagonal, upper;
+  blocks(gradient, diagonal, upper);
+  std::size_t worst = 0;
+  for (std::size_t e = 0; e < gradient.size(); ++e) {
+    if (!gradient[e].allFinite()) return e;
+    if (gradient[e].squaredNorm() > gradient[worst].squaredNorm()) worst = e;
+  }
+  return worst;
+}
+
 void ReducedEnergy::blocks(TurnField& gradient, std::vector<rod::Matrix3>& diagonal,
                            std::vector<rod::Matrix3>& upper) const {
   const std::size_t n = size();

@@ -85,7 +85,10 @@ class ReducedEnergy {
   double bendingScale() const { return bending_scale_; }         ///< B / L: bends the rod by about a radian [N m]
   double stiffnessScale() const { return stiffness_scale_; }     ///< about the largest entry of the Hessian [N m]
 
-  /// Gradient and Hessian as a whole, for tests: blocks at (e, e) and at (e - 1, e).
+  /// Element with the largest gradient, or the first where that is not finite. Allocates.
+  std::size_t worstElement() const;
+
+  /// Gradient and Hessian as a whole: blocks at (e, e) and at (e - 1, e).
   void blocks(TurnField& gradient, std::vector<rod::Matrix3>& diagonal, std::vector<rod::Matrix3>& upper) const;
 
  private:

@@ -64,7 +64,9 @@ std::string describe(const RelaxationReport& report) {
   } else {
     out << " Newton iterations";
   }
-  out << ", scaled residual " << report.residual << ", ";
+  out << ", scaled residual " << report.residual;
+  if (!report.ok()) out << " at element " << report.worst_element;
+  out << ", ";
   if (report.lowest_eigenvalue) out << "lowest eigenvalue " << *report.lowest_eigenvalue << " N m, ";
   out << report.branch_switches << " branch switches, "
       << (report.load_steps > 0 ? std::to_string(report.load_steps) + " load steps, " : "")

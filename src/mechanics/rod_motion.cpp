@@ -192,18 +192,18 @@ void RodMotion::setShare(double share) {
   addUpForces();
 }
 
-double RodMotion::residual() const {
-  double largest = 0.0;
-  double sum = 0.0;  // unlike the largest, it does not lose a NaN
+Residual RodMotion::residual() const {
+  Residual largest;
   Vector3 beyond = Vector3::Zero();
   for (std::size_t e = size(); e-- > 0;) {
     beyond += freeForce(e);
     const double couple = freeCouple(e).norm();
     const double force = rest_length_sum_ * beyond.norm();
-    largest = std::max({largest, couple, force});
-    sum += couple + force;
+    if (!std::isfinite(couple + force)) return {couple + force, e};
+    const double here = std::max(couple, force);
+    if (here > largest.value) largest = {here, e};
   }
-  return (std::isfinite(sum) ? largest : sum) / couple_scale_;
+  return {largest.value / couple_scale_, largest.element};
 }
 
 double RodMotion::restingResidual() const {

@@ -10,6 +10,7 @@
 
 #include "kernels/motion_kernels.h"
 #include "sensory_growth/mechanics/loads.h"
+#include "sensory_growth/mechanics/relaxation.h"
 #include "sensory_growth/rod/rod.h"
 #include "surroundings_potential.h"
 
@@ -52,7 +53,7 @@ class RodMotion {
 
   /// Largest couple on an element, and largest force on all that lies beyond an element times the rod's length, over
   /// coupleScale() [-] (model.md 12.4). Of the last evaluate(); NaN if anything is.
-  double residual() const;
+  Residual residual() const;
 
   /// Bound on the residual that round-off keeps alive [-]: strains are differences of positions, so they are wrong by
   /// about the machine precision times L over the length of an element, and their vibration adds up along the rod. Ten

@@ -170,11 +170,12 @@ RelaxationReport StaticEquilibrium::relaxCorrected(rod::Rod& rod, const Loads& l
 RelaxationReport StaticEquilibrium::relaxAssigned(rod::Rod& rod, const Loads& loads, Stability stability,
                                                   bool is_close) {
   RelaxationReport report;
-  const auto stop = [&report](RelaxationReason reason) {
+  ReducedEnergy& energy = workspace_->energy;
+  const auto stop = [&report, &energy](RelaxationReason reason) {
     report.reason = reason;
+    report.worst_element = energy.worstElement();
     return report;
   };
-  ReducedEnergy& energy = workspace_->energy;
   // Forces of all elements beyond add up in each, so round-off grows with their number.
   const double round_off = 10.0 * static_cast<double>(rod.size()) * std::numeric_limits<double>::epsilon();
   const double stiffest = std::numeric_limits<double>::epsilon() * energy.stiffnessScale() / energy.coupleScale();

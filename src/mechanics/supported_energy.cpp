@@ -233,16 +233,16 @@ double SupportedEnergy::forceScale() const {
   return std::max(acting, stiffest_ / (length_ * length_));
 }
 
-double SupportedEnergy::residual(const Variation& gradient) const {
-  double force = 0.0;
+Residual SupportedEnergy::residual(const Variation& gradient) const {
+  Residual largest;
   for (std::size_t e = 0; e < size(); ++e) {
     const Vector3 couple = gradient.rotations.col(column(e));
     const Vector3 pull = gradient.strains.col(column(e)) / rest_length_[e];
     const double here = std::max(couple.norm() / length_, pull.norm());
-    if (std::isnan(couple.norm()) || std::isnan(pull.norm())) return std::numeric_limits<double>::quiet_NaN();
-    force = std::max(force, here);
+    if (std::isnan(couple.norm()) || std::isnan(pull.norm())) return {std::numeric_limits<double>::quiet_NaN(), e};
+    if (here > largest.value) largest = {here, e};
   }
-  return force / forceScale();
+  return {largest.value / forceScale(), largest.element};
 }
 
 double SupportedEnergy::residualRoundOff() const {

@@ -8,6 +8,7 @@
 
 #include "chain_cholesky.h"
 #include "sensory_growth/mechanics/loads.h"
+#include "sensory_growth/mechanics/relaxation.h"
 #include "sensory_growth/rod/rod.h"
 #include "surroundings_potential.h"
 
@@ -60,7 +61,7 @@ class SupportedEnergy {
   Field strainsOf(const ChainResponse& response) const;
 
   /// Largest gradient over what makes it dimensionless, the sums of the forces at the last configuration (12.4).
-  double residual(const Variation& gradient) const;
+  Residual residual(const Variation& gradient) const;
 
   /// How much of the residual the round-off of positions causes.
   double residualRoundOff() const;

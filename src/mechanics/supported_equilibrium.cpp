@@ -295,7 +295,9 @@ RelaxationReport SupportedEquilibrium::relax(rod::Rod& rod, const Loads& loads) 
   while (true) {
     const double value = w.energy.evaluate(w.here);
     w.energy.differentiate(w.gradient);
-    report.residual = w.energy.residual(w.gradient);
+    const Residual residual = w.energy.residual(w.gradient);
+    report.residual = residual.value;
+    report.worst_element = residual.element;
     report.largest_bend = w.energy.largestBend();
     if (!std::isfinite(report.residual) || !std::isfinite(value)) return stop(RelaxationReason::not_finite);
 

@@ -2,6 +2,7 @@
 
 /// What every way of relaxing takes and reports.
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -30,10 +31,17 @@ enum class RelaxationReason {
                  ///< time steps
 };
 
+/// What is out of balance most.
+struct Residual {
+  double value = 0.0;       ///< scaled [-]; NaN if anything is
+  std::size_t element = 0;  ///< where, counted from the base
+};
+
 struct RelaxationReport {
   RelaxationReason reason = RelaxationReason::converged;
-  int iterations = 0;     ///< Newton iterations, all branches together, or time steps
-  double residual = 0.0;  ///< scaled [-]
+  int iterations = 0;             ///< Newton iterations, all branches together, or time steps
+  double residual = 0.0;          ///< scaled [-]
+  std::size_t worst_element = 0;  ///< where it is largest, counted from the base; only if relaxation failed
   /// Of the Hessian at the end [N m], if it was measured; close to zero for a free azimuth.
   std::optional<double> lowest_eigenvalue;
   int branch_switches = 0;      ///< unstable equilibria left along their eigenvector
