@@ -56,7 +56,7 @@ class Flood {
 };
 
 TEST_F(Process, AFloodOfStimuliLeavesStepsAndMemoryBounded) {
-  constexpr std::uint64_t kWarm = 200, kSteps = 1000;
+  constexpr std::uint64_t kWarm = 300, kSteps = 3000;
   set("real_time_factor", 0.0);
   set("start_paused", true);
   set("recording_marker_every", 0);

@@ -1,11 +1,15 @@
-/// Two nodes on one ROS system keep out of each other's way.
+/// Several nodes on one ROS system keep out of each other's way.
 
 #include <gtest/gtest.h>
 #include <ros/master.h>
+#include <std_msgs/String.h>
+#include <tf2_msgs/TFMessage.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include <map>
 #include <set>
 
+#include "ros/message_log.h"
 #include "ros/node_under_test.h"
 
 namespace sensory_growth::node::testing {
@@ -36,6 +40,44 @@ TEST(Namespaces, RemappedTopicsWork) {
   ros::NodeHandle absolute;
   ros::Publisher lamps = absolute.advertise<PointSource>("/lamps_of_b", 10);  // see namespaces.test
   EXPECT_EQ(b.send(lamps, lamp(PointSource::ADD, "remapped", {0.1, 0.0, 0.1})).id, "remapped");
+}
+
+TEST(Namespaces, EveryTopicCanBeRemapped) {
+  const std::string c = "/c/sensory_growth";
+  Step step;
+  step.request.steps = 3;
+  ASSERT_TRUE(ros::service::waitForService(c + "/step", ros::Duration(kPatience.count())));
+  ASSERT_TRUE(ros::service::call(c + "/step", step) && step.response.success) << step.response.message;
+
+  XmlRpc::XmlRpcValue request, response, state;
+  request[0] = ros::this_node::getName();
+  ASSERT_TRUE(ros::master::execute("getSystemState", request, response, state, false));
+  std::set<std::string> topics;
+  for (int kind = 0; kind < 2; ++kind) {  // publishers, subscribers
+    for (int i = 0; i < state[kind].size(); ++i) {
+      for (int k = 0; k < state[kind][i][1].size(); ++k) {
+        if (static_cast<std::string&>(state[kind][i][1][k]) == c) topics.insert(state[kind][i][0]);
+      }
+    }
+  }
+  topics.erase("/rosout");
+  EXPECT_EQ(topics.size(), 14u);
+  for (const std::string& topic : topics) EXPECT_EQ(topic.rfind("/elsewhere/", 0), 0u) << topic;
+
+  // Whoever comes late gets all that is latched, wherever it is.
+  MessageLog<OrganState> states("/elsewhere/state");
+  MessageLog<Status> statuses("/elsewhere/status");
+  MessageLog<Stimuli> stimuli("/elsewhere/stimuli");
+  MessageLog<std_msgs::String> scenario("/elsewhere/scenario"), parameters("/elsewhere/parameters");
+  MessageLog<tf2_msgs::TFMessage> fixed("/elsewhere/tf_static");
+  MessageLog<visualization_msgs::MarkerArray> markers("/elsewhere/markers");
+  states.waitFor("step 3", [](const OrganState& message) { return message.step_index == 3; });
+  statuses.waitFor("step 3", [](const Status& message) { return message.step_index == 3; });
+  stimuli.waitForCount(1);
+  scenario.waitForCount(1);
+  parameters.waitForCount(1);
+  fixed.waitForCount(1);
+  markers.waitForCount(1);
 }
 
 TEST(Namespaces, OnlySharedTopicsHaveSeveralPublishers) {
