@@ -154,8 +154,7 @@ void Recording::writeEntry(const Entry& entry) {
   try {
     entry(*bag_);
     if (bag_->getChunkThreshold() == 0) bag_->setChunkThreshold(kChunkThreshold);  // see flush()
-    ++messages_;
-    size_ = bag_->getSize() - uncounted_size_;
+    if (uncounted_size_) size_ = bag_->getSize() - *uncounted_size_;
   } catch (const std::exception& failure) {
     return fail(describe(failure));
   }

@@ -71,7 +71,7 @@ TEST_F(RecorderTest, IsFullWhenTheFileHasGrownBySplitSize) {
   recorder.recording()->countFromHere();
   for (int i = 0; i < kQueue + 1; ++i) write(recorder, i, 1);
   EXPECT_FALSE(recorder.isFull());
-  for (int i = 0; i < kMessages + 1; ++i) write(recorder, i, kSize);
+  for (int i = 0; i < kMessages + 10; ++i) write(recorder, i, kSize);
   EXPECT_TRUE(recorder.isFull());
 }
 

@@ -67,6 +67,7 @@ class Recording {
                                                                  {"callerid", settings_.caller}});
       }
       bag.write(topic, stamp, *message, header);
+      ++messages_;
     });
   }
 
@@ -75,7 +76,7 @@ class Recording {
 
   const std::string& path() const { return path_; }
 
-  /// What comes now is the first that size() counts.
+  /// What comes now is the first that size() counts; before, it is 0.
   void countFromHere();
 
   /// Growth of the file so far, or a little less [byte].
@@ -109,7 +110,7 @@ class Recording {
   std::optional<std::chrono::steady_clock::time_point> flush_due_;  // nothing: all that was written is in the file
   std::map<std::string, boost::shared_ptr<ros::M_string>> headers_;
   std::uint64_t messages_ = 0;
-  std::uint64_t uncounted_size_ = 0;  // [byte]
+  std::optional<std::uint64_t> uncounted_size_;  // [byte]; nothing: nothing is counted yet
   std::string error_;
   bool is_unfinished_ = false;
 
