@@ -32,6 +32,7 @@ node::Parameters parametersOf(const ReplayOptions& options, const RecordedRun& r
   parameters.threads = options.threads;
   parameters.real_time_factor = 0.0;
   parameters.record = false;
+  parameters.recording_split_size = 0.0;  // into one bag
   recordTo(options.bag, parameters);
   return parameters;
 }
