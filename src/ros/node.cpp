@@ -51,7 +51,6 @@ int complain(const std::vector<std::string>& problems) {
 
 Node::Node(const Parameters& parameters, LoadedScenario loaded)
     : parameters_(parameters),
-      duration_(loaded.scenario.duration),
       step_(loaded.scenario.stepping.step / parameters.growth_time_scale),
       private_node_("~"),
       clock_(parameters.clock_mode, step_, parameters.clock_rate, node_),
@@ -61,11 +60,12 @@ Node::Node(const Parameters& parameters, LoadedScenario loaded)
                [this] { loop_.refreshStatus(); }}),
       loop_(simulation::Simulation(std::move(loaded.scenario), parameters.threads),
             {step_, parameters.real_time_factor, parameters.start_paused}, clock_, counters_, publishers_),
+      checkpoints_(parameters, loaded.sources.node, step_, loop_, publishers_),
       topic_spinner_(1),
       control_spinner_(1, &control_queue_),
       step_spinner_(1, &step_queue_) {
-  if (!parameters_.recording_directory.empty()) {
-    std::filesystem::create_directories(parameters_.recording_directory);
+  for (const std::string& directory : {parameters_.recording_directory, parameters_.checkpoint_directory}) {
+    if (!directory.empty()) std::filesystem::create_directories(directory);
   }
   if (parameters_.record) {
     if (const auto refusal = publishers_.startRecording(parameters_.recording_file, *loop_.snapshot()))
@@ -123,6 +123,11 @@ void Node::advertiseServices() {
                                           [this](auto& q, auto& r) { fill(loop_.apply(toCommand(q)), r); }));
   services_.push_back(serve<SetGravity>(private_node_, names::kSetGravity, control_queue_,
                                         [this](auto& q, auto& r) { fill(loop_.apply(toCommand(q)), r); }));
+  services_.push_back(serve<SaveCheckpoint>(private_node_, names::kSaveCheckpoint, control_queue_,
+                                            [this](auto& q, auto& r) { fill(checkpoints_.save(q.file), r); }));
+  services_.push_back(
+      serve<LoadCheckpoint>(private_node_, names::kLoadCheckpoint, control_queue_,
+                            [this](auto& q, auto& r) { fill(checkpoints_.load(q.file, q.keep_stimuli), r); }));
   services_.push_back(serve<StartRecording>(private_node_, names::kStartRecording, control_queue_,
                                             [this](auto& q, auto& r) { startRecording(q, r); }));
   services_.push_back(serve<StopRecording>(private_node_, names::kStopRecording, control_queue_,
@@ -174,8 +179,8 @@ void Node::logProgress() const {
   std::ostringstream text;
   text.precision(3);
   text << "step " << snapshot->step_index << ", " << snapshot->growth_time / kHour << " h";
-  if (duration_ > 0.0) {
-    text << " of " << duration_ / kHour << " h (" << 100.0 * std::min(snapshot->growth_time / duration_, 1.0) << " %)";
+  if (const double duration = snapshot->duration; duration > 0.0) {
+    text << " of " << duration / kHour << " h (" << 100.0 * std::min(snapshot->growth_time / duration, 1.0) << " %)";
   }
   text << ", " << loop_.status().achieved_real_time_factor * parameters_.growth_time_scale
        << " x faster than the organ grows";

@@ -50,6 +50,7 @@ void visit(Parameters& p, Visitor& parameter) {
                    {{"none", Compression::none}, {"lz4", Compression::lz4}, {"bz2", Compression::bz2}});
   parameter.count("recording_marker_every", p.recording_marker_every, {0, 1000000});
   parameter.number("recording_minimum_free_space", p.recording_minimum_free_space, {0.0, 1e18});
+  parameter.text("checkpoint_directory", p.checkpoint_directory);
   parameter.number("marker_rate", p.marker_rate, {0.1, 100.0});
   parameter.choice("marker_style", p.marker_style, {{"tube", MarkerShape::tube}, {"line", MarkerShape::line}});
   parameter.choice("marker_color", p.marker_color,

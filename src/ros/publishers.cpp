@@ -21,17 +21,16 @@ Publishers::Publishers(const Parameters& parameters, const Sources& sources, con
   advertise<Status>(topics_.status, kQueue);
   advertise<Stimuli>(topics_.stimuli, kQueue);
   advertise<AppliedCommand>(topics_.applied, kQueue);
+  advertise<Checkpoint>(topics_.checkpoint, 1);
   advertise<std_msgs::String>(topics_.scenario, 1);
+  advertise<std_msgs::String>(topics_.protocol, 1);
   advertise<std_msgs::String>(topics_.parameters, 1);
   advertise<visualization_msgs::MarkerArray>(topics_.markers, 10);
   for (const auto& [organ, topic] : topics_.states) advertise<OrganState>(topic, kQueue);
 
   publish(topics_.parameters, textMessage(sources_.parameters));
   publish(topics_.scenario, textMessage(sources_.scenario));
-  if (!sources_.protocol.empty()) {
-    advertise<std_msgs::String>(topics_.protocol, 1);
-    publish(topics_.protocol, textMessage(sources_.protocol));
-  }
+  publish(topics_.protocol, textMessage(sources_.protocol));
 }
 
 void Publishers::onCommand(const simulation::AppliedCommand& command, const Snapshot& snapshot) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "sensory_growth/ros/conversions.h"
+#include "sensory_growth/ros/loaded_scenario.h"
 #include "sensory_growth/ros/names.h"
 
 namespace sensory_growth::node {
@@ -44,6 +45,7 @@ Reporter::Topics Reporter::makeTopics(const std::vector<std::string>& organs, co
   topics.status = {resolve(names::kStatus), true};
   topics.stimuli = {resolve(names::kStimuli), true};
   topics.applied = {resolve(names::kAppliedCommands), false};
+  topics.checkpoint = {resolve(names::kCheckpoint), true};
   topics.scenario = {resolve(names::kScenario), true};
   topics.protocol = {resolve(names::kProtocol), true};
   topics.parameters = {resolve(names::kParameters), true};
@@ -56,15 +58,24 @@ Reporter::Topics Reporter::makeTopics(const std::vector<std::string>& organs, co
   return topics;
 }
 
+void Reporter::onCheckpoint(const simulation::Checkpoint& checkpoint, const Snapshot& snapshot) {
+  // Not recorded: the texts in a bag are those that it began with, the others are in its checkpoints.
+  sources_.scenario = checkpoint.scenario;
+  sources_.protocol = checkpoint.protocol;
+  publish(topics_.scenario, textMessage(sources_.scenario));
+  publish(topics_.protocol, textMessage(sources_.protocol));
+  beginHistory(snapshot.epoch);
+  origin_ = shared(toMessage(checkpoint, snapshot, parameters_.world_frame));
+  send(topics_.checkpoint, snapshot.stamp, *origin_);
+  if (marker_settings_) send(topics_.tf_static, snapshot.stamp, shared(staticTransforms(snapshot, frames_)));
+}
+
 void Reporter::onState(const SnapshotPtr& snapshot) {
   if (!marker_settings_) {
     marker_settings_ = makeMarkerSettings(parameters_, *snapshot);
     publish(topics_.tf_static, shared(staticTransforms(*snapshot, frames_)));
   }
-  if (snapshot->epoch != history_epoch_) {
-    history_.clear();
-    history_epoch_ = snapshot->epoch;
-  }
+  if (snapshot->epoch != history_epoch_) beginHistory(snapshot->epoch);
   for (const OrganSnapshot& organ : snapshot->organs) {
     send(topics_.states.at(organ.id), snapshot->stamp, shared(toMessage(organ, *snapshot, parameters_.world_frame)));
   }
@@ -87,7 +98,7 @@ void Reporter::onStatus(const RunStatus& status, const Snapshot& snapshot) {
   message.header = makeHeader(snapshot, parameters_.world_frame);
   message.mode = toConstant(status.mode);
   message.message = status.message;
-  message.scenario = sources_.scenario_name;
+  message.scenario = snapshot.scenario;
   message.step_index = snapshot.step_index;
   message.epoch = snapshot.epoch;
   message.checksum = snapshot.checksum;
@@ -102,10 +113,15 @@ void Reporter::onStatus(const RunStatus& status, const Snapshot& snapshot) {
   send(topics_.status, snapshot.stamp, shared(std::move(message)));
 }
 
+simulation::Checkpoint Reporter::checkpointOf(simulation::SimulationState state) const {
+  return {version(), sources_.scenario, sources_.protocol, std::move(state)};
+}
+
 std::optional<std::string> Reporter::startRecording(const std::string& file, const Snapshot& snapshot) {
   if (recording_) return "already recording " + recording_->path();
   try {
-    const std::string path = node::recordingPath(parameters_.recording_directory, file.empty() ? datedFile() : file);
+    const std::string path =
+        node::recordingPath(parameters_.recording_directory, file.empty() ? datedFile(snapshot) : file);
     setRecording(std::make_unique<Recording>(
         path,
         RecordingSettings{parameters_.recording_compression, parameters_.recording_minimum_free_space, sources_.node}));
@@ -143,6 +159,12 @@ void Reporter::record(const Topic& topic, const ros::Time& stamp, const Message&
   std::visit([&](const auto& content) { recording_->write(topic.name, topic.is_latched, stamp, content); }, message);
 }
 
+void Reporter::beginHistory(std::uint32_t epoch) {
+  origin_.reset();
+  history_.clear();
+  history_epoch_ = epoch;
+}
+
 void Reporter::sendTransforms(const Snapshot& snapshot) {
   if (snapshot.stamp <= last_tf_stamp_) return;  // tf2 warns about repeated stamps
   last_tf_stamp_ = snapshot.stamp;
@@ -154,6 +176,7 @@ void Reporter::recordPreamble(const Snapshot& snapshot) {
   record(topics_.scenario, snapshot.stamp, textMessage(sources_.scenario));
   if (!sources_.protocol.empty()) record(topics_.protocol, snapshot.stamp, textMessage(sources_.protocol));
   record(topics_.tf_static, snapshot.stamp, shared(staticTransforms(snapshot, frames_)));
+  if (origin_) record(topics_.checkpoint, snapshot.stamp, *origin_);
   for (const auto& command : history_) record(topics_.applied, snapshot.stamp, command);
   record(topics_.stimuli, snapshot.stamp, shared(toStimuli(snapshot, parameters_.world_frame)));
   for (const OrganSnapshot& organ : snapshot.organs) {
@@ -183,13 +206,13 @@ void Reporter::setRecording(std::unique_ptr<Recording> recording) {
   recording_path_ = recording_ ? recording_->path() : "";
 }
 
-std::string Reporter::datedFile() const {
+std::string Reporter::datedFile(const Snapshot& snapshot) const {
   const std::time_t now = std::time(nullptr);
   std::tm local{};
   localtime_r(&now, &local);
   char date[32];
   std::strftime(date, sizeof date, "%Y-%m-%d-%H-%M-%S", &local);
-  return sources_.scenario_name + "_" + date + ".bag";
+  return snapshot.scenario + "_" + date + ".bag";
 }
 
 }  // namespace sensory_growth::node

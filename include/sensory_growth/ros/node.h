@@ -12,11 +12,14 @@
 #include <vector>
 
 #include "sensory_growth/Command.h"
+#include "sensory_growth/LoadCheckpoint.h"
+#include "sensory_growth/SaveCheckpoint.h"
 #include "sensory_growth/SetGravity.h"
 #include "sensory_growth/SetParameter.h"
 #include "sensory_growth/StartRecording.h"
 #include "sensory_growth/Step.h"
 #include "sensory_growth/StopRecording.h"
+#include "sensory_growth/ros/checkpoints.h"
 #include "sensory_growth/ros/clock.h"
 #include "sensory_growth/ros/diagnostics.h"
 #include "sensory_growth/ros/loaded_scenario.h"
@@ -48,8 +51,7 @@ class Node {
   void logProgress() const;
 
   const Parameters parameters_;
-  const double duration_;  // growth time [s]
-  const double step_;      // ROS time [s]
+  const double step_;  // ROS time [s]
   ros::NodeHandle node_, private_node_;
 
   // A service that blocks must not keep others waiting, nor the topics: each kind has its own queue and thread.
@@ -60,6 +62,7 @@ class Node {
   Publishers publishers_;
   StimulusIntake intake_;  // before the loop, so that it hears the transforms of the first state
   SimulationLoop loop_;
+  Checkpoints checkpoints_;
   std::unique_ptr<Diagnostics> diagnostics_;
   std::vector<ros::ServiceServer> services_;
   std::vector<ros::WallTimer> timers_;

@@ -45,6 +45,8 @@ struct Parameters {
   int recording_marker_every = 1;               ///< steps between recorded markers; 0: none
   double recording_minimum_free_space = 1.0e9;  ///< recording stops when the disk has less [byte]
 
+  std::string checkpoint_directory;  ///< empty: saving and loading are refused
+
   double marker_rate = 20.0;  ///< [1/s of wall time]
   MarkerShape marker_style = MarkerShape::tube;
   MarkerField marker_color = MarkerField::curvature;
