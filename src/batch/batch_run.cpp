@@ -12,9 +12,10 @@
 namespace sensory_growth::batch {
 namespace {
 
-simulation::Simulation build(simulation::Scenario scenario, int threads) {
+simulation::Simulation build(simulation::Scenario scenario, const BatchRun::Origin& origin, int threads) {
   try {
-    return simulation::Simulation(std::move(scenario), threads);
+    return origin ? simulation::Simulation(std::move(scenario), origin->state, threads)
+                  : simulation::Simulation(std::move(scenario), threads);
   } catch (const std::invalid_argument& fault) {
     throw BadInput(fault.what());
   }
@@ -30,14 +31,16 @@ BatchRun::Reporter::Reporter(const node::Parameters& parameters, const node::Sou
 
 void BatchRun::Reporter::publish(const Topic&, const node::Message& message) { watch_(message); }
 
-BatchRun::BatchRun(const node::Parameters& parameters, node::LoadedScenario loaded, Watch watch, std::uint32_t epoch)
-    : reporter_(parameters, loaded.sources, counters_, std::move(watch)),
+BatchRun::BatchRun(const node::Parameters& parameters, node::LoadedScenario loaded, Watch watch, std::uint32_t epoch,
+                   const Origin& origin)
+    : threads_(parameters.threads),
+      reporter_(parameters, loaded.sources, counters_, std::move(watch)),
       run_(
-          build(loaded.scenario, parameters.threads),
+          build(loaded.scenario, origin, threads_),
           [this, step = loaded.scenario.stepping.step / parameters.growth_time_scale] {
             return node::stampOf(++ticks_, step);
           },
-          counters_, reporter_, epoch) {
+          counters_, reporter_, epoch, origin) {
   if (parameters.record) {
     if (const auto refusal = reporter_.startRecording(parameters.recording_file, *run_.snapshot())) {
       throw BadInput(*refusal);
@@ -64,6 +67,12 @@ void BatchRun::reset() {
   showStatus();
 }
 
+void BatchRun::load(simulation::Scenario scenario, const simulation::Checkpoint& checkpoint) {
+  run_.load(build(std::move(scenario), checkpoint, threads_), checkpoint, false);
+  fault_.reset();
+  showStatus();
+}
+
 std::optional<node::RecordingSummary> BatchRun::finish() {
   if (const auto recording = reporter_.takeRecording()) return recording->finish();
   return reporter_.failure;
@@ -76,12 +85,17 @@ void BatchRun::showStatus() {
   reporter_.onStatus(status, *run_.snapshot());
 }
 
-void recordTo(const std::string& bag, node::Parameters& parameters) {
-  if (bag.empty()) return;
-  const std::filesystem::path path = std::filesystem::absolute(bag);
+std::filesystem::path inFolder(const std::string& file) {
+  const std::filesystem::path path = std::filesystem::absolute(file);
   std::error_code failure;
   std::filesystem::create_directories(path.parent_path(), failure);
   if (failure) throw BadInput(path.parent_path().string() + ": cannot be created: " + failure.message());
+  return path;
+}
+
+void recordTo(const std::string& bag, node::Parameters& parameters) {
+  if (bag.empty()) return;
+  const std::filesystem::path path = inFolder(bag);
   try {
     node::recordingPath(path.parent_path(), path.filename());
   } catch (const std::invalid_argument& refusal) {

@@ -46,10 +46,18 @@ void addRunOptions(CLI::App& command, int& threads, bool& quiet) {
 
 CLI::App* addRun(CLI::App& app, RunOptions& options, std::string& duration) {
   CLI::App* run = app.add_subcommand("run", "Grows the organs of a scenario for its duration");
-  run->add_option("scenario", options.scenario, "scenario file")->required()->check(CLI::ExistingFile);
-  run->add_option("--protocol", options.protocol, "commands added to those of the scenario")->check(CLI::ExistingFile);
+  CLI::Option_group* beginning = run->add_option_group("Beginning");
+  beginning->require_option(1);
+  beginning->add_option("scenario", options.scenario, "scenario file")->check(CLI::ExistingFile);
+  CLI::Option* from =
+      beginning->add_option("--from", options.from, "checkpoint to go on from; it holds its scenario and protocol")
+          ->check(CLI::ExistingFile);
+  run->add_option("--protocol", options.protocol, "commands added to those of the scenario")
+      ->check(CLI::ExistingFile)
+      ->excludes(from);
   run->add_option("--duration", duration, "growth time with its unit, such as '8 h' (default: that of the scenario)");
   run->add_option("--bag", options.bag, "bag to record to, as the node does")->type_name("OUT.bag");
+  run->add_option("--save-checkpoint", options.checkpoint, "checkpoint of the last state")->type_name("OUT.checkpoint");
   run->add_option("--marker-every", options.marker_every, "steps between markers in the bag; 0: none")
       ->capture_default_str()
       ->check(CLI::Range(0, 1000000))

@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "sensory_growth/Checkpoint.h"
 #include "sensory_growth/OrganState.h"
 #include "sensory_growth/Status.h"
 #include "sensory_growth/batch/bad_input.h"
@@ -69,6 +70,14 @@ void readParameters(const std::string& yaml, const std::string& file, RecordedRu
   for (std::string& problem : reading.problems) problem = file + ": " + problem;
   if (!reading.problems.empty()) throw BadInput(reading.problems);
   run.parameters = reading.parameters;
+}
+
+simulation::Checkpoint readCheckpoint(const Checkpoint& message, const std::string& file) {
+  try {
+    return simulation::decode({message.data.begin(), message.data.end()});
+  } catch (const simulation::CheckpointError& error) {
+    throw BadInput(file + ": the checkpoint of epoch " + std::to_string(message.epoch) + " " + error.what());
+  }
 }
 
 /// Topics of states by the id of their organ, which is fit for a file name.
@@ -143,6 +152,15 @@ RecordedRun readRun(const rosbag::Bag& bag, const std::string& node) {
                      " and " + std::to_string(epoch->first));
     }
   }
+  forEach<Checkpoint>(bag, topic(names::kCheckpoint), [&](const Checkpoint& message) {
+    const auto epoch = run.epochs.find(message.epoch);
+    if (epoch == run.epochs.end()) return;  // the bag ends before its first state
+    epoch->second.origin = readCheckpoint(message, bag.getFileName());
+    if (epoch->second.beginning() > epoch->second.firstStep()) {
+      throw BadInput(bag.getFileName() + ": the checkpoint of epoch " + std::to_string(message.epoch) +
+                     " is of a later step than its states");
+    }
+  });
   forEach<AppliedCommand>(bag, topic(names::kAppliedCommands), [&](const AppliedCommand& command) {
     const auto epoch = run.epochs.find(command.epoch);
     // What falls due with a step is said before the step is; a bag may end between the two.

@@ -41,30 +41,27 @@ node::Parameters parametersOf(const ReplayOptions& options, const RecordedRun& r
 
 std::uint64_t stepsOf(const RecordedRun& recorded) {
   std::uint64_t steps = 0;
-  for (const auto& [number, epoch] : recorded.epochs) steps += epoch.lastStep();
+  for (const auto& [number, epoch] : recorded.epochs) steps += epoch.lastStep() - epoch.beginning();
   return steps;
 }
 
 Replay::Replay(const RecordedRun& recorded, const node::Parameters& parameters, node::LoadedScenario loaded,
                BatchRun::Watch watch)
     : recorded_(recorded),
+      parameters_(parameters),
       watch_(std::move(watch)),
       run_(
           parameters, std::move(loaded), [this](const node::Message& message) { listen(message); },
-          recorded.epochs.begin()->first) {}
+          recorded.epochs.begin()->first, recorded.epochs.begin()->second.origin) {}
 
 ReplayReport Replay::run(const Go& go) {
   ReplayReport report;
   std::uint64_t taken = 0;
   for (const auto& [number, epoch] : recorded_.epochs) {
-    while (run_.snapshot()->epoch < number) {
-      commands_.clear();
-      checksums_.clear();
-      run_.reset();
-    }
-    for (std::uint64_t step = 0; step <= epoch.lastStep(); ++step) {
+    if (run_.snapshot()->epoch < number) begin(epoch);
+    for (std::uint64_t step = epoch.beginning(); step <= epoch.lastStep(); ++step) {
       std::optional<std::string> fault;
-      if (step > 0) {
+      if (step > epoch.beginning()) {
         commands_.clear();
         checksums_.clear();
         fault = run_.step();
@@ -84,6 +81,17 @@ ReplayReport Replay::run(const Go& go) {
     }
   }
   return report;
+}
+
+void Replay::begin(const RecordedEpoch& epoch) {
+  commands_.clear();
+  checksums_.clear();
+  if (!epoch.origin) return run_.reset();
+  std::vector<std::string> problems;
+  node::LoadedScenario loaded =
+      node::parseScenario(parameters_, recorded_.sources.node, "a checkpoint", *epoch.origin, problems);
+  if (!problems.empty()) throw BadInput(problems);
+  run_.load(std::move(loaded.scenario), *epoch.origin);
 }
 
 void Replay::listen(const node::Message& message) {

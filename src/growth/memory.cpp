@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace sensory_growth::growth {
@@ -21,6 +22,31 @@ void resample(const std::vector<double>& old_labels, const SectionField& old_val
   }
 }
 
+/// Beyond it, what is made of it is no longer finite [-].
+constexpr double kLargestSignal = 1e30;
+
+bool isSignal(const SectionField& field) {
+  const auto is_number = [](const Eigen::Vector2d& value) { return (value.array().abs() <= kLargestSignal).all(); };
+  return std::all_of(field.begin(), field.end(), is_number);
+}
+
+/// Whether a sample can come after another, as far as both are looked at on their own.
+bool canFollow(const MemorySample& before, const MemorySample& after) {
+  if (after.time < before.time || after.labels.size() < before.labels.size()) return false;
+  // A single sensor remains one.
+  return (before.labels.size() == 1) == (after.labels.size() == 1);
+}
+
+bool isSample(const MemorySample& sample, std::size_t states) {
+  const std::vector<double>& labels = sample.labels;
+  const auto fits = [&](const SectionField& field) { return field.size() == labels.size() && isSignal(field); };
+  const auto falls = [](double below, double above) { return !(below < above); };  // NaN does
+  return std::isfinite(sample.time) && !labels.empty() && std::isfinite(labels.front()) &&
+         std::isfinite(labels.back()) && std::adjacent_find(labels.begin(), labels.end(), falls) == labels.end() &&
+         fits(sample.sensed) && sample.states.size() == states &&
+         std::all_of(sample.states.begin(), sample.states.end(), fits);
+}
+
 }  // namespace
 
 Memory::Memory(MemoryKernel kernel, BeforeStart before_start)
@@ -34,7 +60,7 @@ const SectionField& Memory::expect(double time, const std::vector<double>& label
 }
 
 const SectionField& Memory::remember(double time, const std::vector<double>& labels, const SectionField& sensed) {
-  const Sample& now = sense(time, labels, sensed, Side::after);
+  const MemorySample& now = sense(time, labels, sensed, Side::after);
   const bool repeats = size_ > 0 && samples_[size_ - 1].time == now.time && samples_[size_ - 1].sensed == now.sensed;
   if (!repeats) ++size_;
   return now.states.front();
@@ -52,13 +78,26 @@ double Memory::nextJump(double time) const {
   return std::numeric_limits<double>::infinity();
 }
 
+History Memory::history() const { return {samples_.begin(), samples_.begin() + static_cast<std::ptrdiff_t>(size_)}; }
+
+void Memory::restore(History history) {
+  const auto states = static_cast<std::size_t>(stateCount(kernel_));
+  for (std::size_t k = 0; k < history.size(); ++k) {
+    if (!isSample(history[k], states) || (k > 0 && !canFollow(history[k - 1], history[k]))) {
+      throw std::invalid_argument("sample " + std::to_string(k) + " of a memory is none that this kernel keeps");
+    }
+  }
+  samples_ = std::move(history);
+  size_ = samples_.size();
+}
+
 void Memory::forgetTheOld() {
   if (size_ == 0) return;
   // One sample more than is looked back at: what was just before may be asked for.
   const double latest = samples_[size_ - 1].time;
   const double oldest_needed = latest - (1.0 + 1e-9) * lookBack(kernel_);
   const auto first_needed = std::find_if(samples_.begin(), samples_.begin() + static_cast<std::ptrdiff_t>(size_ - 1),
-                                         [&](const Sample& sample) { return sample.time >= oldest_needed; });
+                                         [&](const MemorySample& sample) { return sample.time >= oldest_needed; });
   if (first_needed - samples_.begin() < 2) return;
   const auto forgotten = first_needed - 1;
   size_ -= static_cast<std::size_t>(forgotten - samples_.begin());
@@ -66,10 +105,10 @@ void Memory::forgetTheOld() {
 }
 
 /// The new sample stands behind those that are kept.
-const Memory::Sample& Memory::sense(double time, const std::vector<double>& labels, const SectionField& sensed,
-                                    Side side) {
+const MemorySample& Memory::sense(double time, const std::vector<double>& labels, const SectionField& sensed,
+                                  Side side) {
   if (samples_.size() == size_) samples_.emplace_back();
-  Sample& now = samples_[size_];
+  MemorySample& now = samples_[size_];
   const bool goes_on = size_ == 0 || time - samples_[size_ - 1].time > kSameTime * std::abs(time);
   now.time = goes_on ? time : samples_[size_ - 1].time;
   now.labels = labels;
@@ -83,7 +122,7 @@ const Memory::Sample& Memory::sense(double time, const std::vector<double>& labe
   for (SectionField& state : now.states) state.assign(labels.size(), Eigen::Vector2d::Zero());
   for (std::size_t k = 0; k <= size_; ++k) add(samples_[k], samples_[k].sensed, weights_.samples[k], now);
   if (size_ > 0) {
-    const Sample& latest = samples_[size_ - 1];
+    const MemorySample& latest = samples_[size_ - 1];
     for (std::size_t i = 0; i < latest.states.size(); ++i) {
       add(latest, latest.states[i], weights_.states.col(static_cast<Eigen::Index>(i)), now);
     }
@@ -92,7 +131,7 @@ const Memory::Sample& Memory::sense(double time, const std::vector<double>& labe
 }
 
 /// Adds values at the labels of one sample to the states of another, which may have more labels.
-void Memory::add(const Sample& from, const SectionField& values, const StateVector& weight, Sample& to) {
+void Memory::add(const MemorySample& from, const SectionField& values, const StateVector& weight, MemorySample& to) {
   if (weight.isZero(0.0)) return;
   const bool has_more = to.labels.size() > from.labels.size();
   if (has_more) resample(from.labels, values, to.labels, resampled_);

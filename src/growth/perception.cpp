@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 namespace sensory_growth::growth {
 namespace {
@@ -19,6 +20,14 @@ rod::Quaternion baseFrame(const rod::Rod& rod) {
   const rod::Element& first = rod.elements.front();
   if (rod.size() == 1) return first.frame;
   return (first.frame * rod::exp(-0.5 * first.rest_length * rod.bends[1].curvature)).normalized();
+}
+
+/// Whether the sample has the labels of the sensor, or of the organ when it had no more vertices than now.
+bool isOf(const MemorySample& sample, const Route& route, const rod::Rod& rod) {
+  const std::vector<double>& labels = sample.labels;
+  if (route.sensor) return labels == kSensorLabel;
+  return labels.size() >= 2 && labels.size() <= rod.vertices.size() && labels.front() == rod.vertices.front().label &&
+         labels.back() == rod.vertices.back().label;
 }
 
 /// The cues of the bends with those of both ends of the organ, which the bends next to them will need when elements
@@ -116,6 +125,27 @@ void Perception::setMark(Mark& mark) const {
 
 void Perception::takeBack(const Mark& mark) {
   for (std::size_t i = 0; i < pathways_.size(); ++i) pathways_[i].memory.takeBack(mark[i]);
+}
+
+std::vector<History> Perception::histories() const {
+  std::vector<History> histories;
+  for (const Pathway& pathway : pathways_) histories.push_back(pathway.memory.history());
+  return histories;
+}
+
+void Perception::restore(const std::vector<History>& histories, const rod::Rod& rod) {
+  if (histories.size() != pathways_.size()) {
+    throw std::invalid_argument("there are " + std::to_string(histories.size()) + " memories instead of " +
+                                std::to_string(pathways_.size()));
+  }
+  for (std::size_t i = 0; i < histories.size(); ++i) {
+    for (const MemorySample& sample : histories[i]) {
+      if (!isOf(sample, pathways_[i].route, rod)) {
+        throw std::invalid_argument("memory " + std::to_string(i) + " is that of another organ");
+      }
+    }
+    pathways_[i].memory.restore(histories[i]);
+  }
 }
 
 void Perception::forgetTheOld() {

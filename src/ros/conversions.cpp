@@ -171,6 +171,16 @@ Relaxation toMessage(const simulation::OrganReport& report) {
   return message;
 }
 
+Checkpoint toMessage(const simulation::Checkpoint& checkpoint, const Snapshot& snapshot, const std::string& frame) {
+  Checkpoint message;
+  message.header = makeHeader(snapshot, frame);
+  message.step_index = snapshot.step_index;
+  message.epoch = snapshot.epoch;
+  const std::string bytes = simulation::encode(checkpoint);
+  message.data.assign(bytes.begin(), bytes.end());
+  return message;
+}
+
 OrganState toMessage(const OrganSnapshot& organ, const Snapshot& snapshot, const std::string& frame) {
   const rod::Rod& rod = organ.rod;
   OrganState message;

@@ -55,7 +55,11 @@ LoadedScenario loadScenario(const Parameters& parameters, const std::string& nod
   sources.node = node;
   const std::size_t problems_before = problems.size();
   sources.scenario = readFile(parameters.scenario, "scenario", problems);
-  if (!parameters.protocol.empty()) sources.protocol = readFile(parameters.protocol, "protocol", problems);
+  if (!parameters.protocol.empty()) {
+    sources.protocol = readFile(parameters.protocol, "protocol", problems);
+    if (sources.protocol.empty() && problems.size() == problems_before)
+      problems.push_back(parameters.protocol + ": is empty");
+  }
   if (problems.size() > problems_before) return {};
   return parseScenario(parameters, std::move(sources), problems);
 }
@@ -67,7 +71,7 @@ LoadedScenario parseScenario(const Parameters& parameters, Sources sources, std:
     checkStep(parameters, loaded.scenario, problems);
   });
   collect(problems, [&] {
-    if (parameters.protocol.empty()) return;
+    if (sources.protocol.empty()) return;
     auto& protocol = loaded.scenario.protocol;
     for (auto& command : simulation::parseProtocol(sources.protocol, parameters.protocol)) {
       protocol.push_back(std::move(command));
@@ -75,10 +79,20 @@ LoadedScenario parseScenario(const Parameters& parameters, Sources sources, std:
     std::stable_sort(protocol.begin(), protocol.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
   });
   loaded.sources = std::move(sources);
-  loaded.sources.scenario_name = loaded.scenario.name;
   loaded.sources.parameters = describeEffective(parameters, loaded.sources.node);
   for (const simulation::OrganScenario& organ : loaded.scenario.organs) loaded.sources.organs.push_back(organ.id);
   return loaded;
+}
+
+LoadedScenario parseScenario(const Parameters& parameters, const std::string& node, const std::string& path,
+                             const simulation::Checkpoint& checkpoint, std::vector<std::string>& problems) {
+  Parameters named = parameters;
+  named.scenario = named.protocol = path;
+  Sources sources;
+  sources.node = node;
+  sources.scenario = checkpoint.scenario;
+  sources.protocol = checkpoint.protocol;
+  return parseScenario(named, std::move(sources), problems);
 }
 
 const char* version() { return SENSORY_GROWTH_VERSION; }

@@ -62,7 +62,6 @@ int complain(const std::vector<std::string>& problems) {
 
 Node::Node(const Parameters& parameters, LoadedScenario loaded)
     : parameters_(parameters),
-      duration_(loaded.scenario.duration),
       step_(loaded.scenario.stepping.step / parameters.growth_time_scale),
       private_node_("~"),
       clock_({parameters.clock_mode, step_, parameters.clock_rate, parameters.reset_time}, node_),
@@ -74,12 +73,13 @@ Node::Node(const Parameters& parameters, LoadedScenario loaded)
             {step_, parameters.real_time_factor, parameters.start_paused, parameters.clock_mode == ClockMode::follow,
              parameters.on_backward_jump},
             clock_, counters_, publishers_),
+      checkpoints_(parameters, loaded.sources.node, step_, loop_, publishers_),
       topic_spinner_(1),
       control_spinner_(1, &control_queue_),
       step_spinner_(1, &step_queue_),
       health_spinner_(1, &health_queue_) {
-  if (!parameters_.recording_directory.empty()) {
-    std::filesystem::create_directories(parameters_.recording_directory);
+  for (const std::string& directory : {parameters_.recording_directory, parameters_.checkpoint_directory}) {
+    if (!directory.empty()) std::filesystem::create_directories(directory);
   }
   if (parameters_.record) {
     if (const auto refusal = publishers_.startRecording(parameters_.recording_file, *loop_.snapshot()))
@@ -148,6 +148,11 @@ void Node::advertiseServices() {
   services_.push_back(
       serve<SetRealTimeFactor>(private_node_, names::kSetRealTimeFactor, control_queue_,
                                [this](auto& q, auto& r) { fill(loop_.setRealTimeFactor(q.factor), r); }));
+  services_.push_back(serve<SaveCheckpoint>(private_node_, names::kSaveCheckpoint, control_queue_,
+                                            [this](auto& q, auto& r) { fill(checkpoints_.save(q.file), r); }));
+  services_.push_back(
+      serve<LoadCheckpoint>(private_node_, names::kLoadCheckpoint, control_queue_,
+                            [this](auto& q, auto& r) { fill(checkpoints_.load(q.file, q.keep_stimuli), r); }));
   services_.push_back(serve<StartRecording>(private_node_, names::kStartRecording, control_queue_,
                                             [this](auto& q, auto& r) { startRecording(q, r); }));
   services_.push_back(serve<SplitRecording>(private_node_, names::kSplitRecording, control_queue_,
@@ -212,8 +217,8 @@ void Node::logProgress() const {
   std::ostringstream text;
   text.precision(3);
   text << "step " << snapshot->step_index << ", " << snapshot->growth_time / kHour << " h";
-  if (duration_ > 0.0) {
-    text << " of " << duration_ / kHour << " h (" << 100.0 * std::min(snapshot->growth_time / duration_, 1.0) << " %)";
+  if (const double duration = snapshot->duration; duration > 0.0) {
+    text << " of " << duration / kHour << " h (" << 100.0 * std::min(snapshot->growth_time / duration, 1.0) << " %)";
   }
   text << ", " << loop_.status().achieved_real_time_factor * parameters_.growth_time_scale
        << " x faster than the organ grows";

@@ -57,6 +57,7 @@ void visit(Parameters& p, Visitor& parameter) {
   parameter.count("recording_marker_every", p.recording_marker_every, {0, 1000000});
   parameter.number("recording_split_size", p.recording_split_size, {0.0, 1e18});
   parameter.number("recording_minimum_free_space", p.recording_minimum_free_space, {0.0, 1e18});
+  parameter.text("checkpoint_directory", p.checkpoint_directory);
   parameter.number("marker_rate", p.marker_rate, {0.1, 100.0});
   parameter.choice("marker_style", p.marker_style, {{"tube", MarkerShape::tube}, {"line", MarkerShape::line}});
   parameter.choice("marker_color", p.marker_color,

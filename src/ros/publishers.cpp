@@ -21,12 +21,13 @@ Publishers::Publishers(const Parameters& parameters, const Sources& sources, con
   advertise<Status>(topics_.status, kQueue);
   advertise<Stimuli>(topics_.stimuli, kQueue);
   advertise<AppliedCommand>(topics_.applied, kQueue);
+  advertise<Checkpoint>(topics_.checkpoint, 1);
   advertise<std_msgs::String>(topics_.scenario, 1);
+  advertise<std_msgs::String>(topics_.protocol, 1);
   advertise<std_msgs::String>(topics_.parameters, 1);
   advertise<visualization_msgs::MarkerArray>(topics_.markers, 10);
   for (const auto& [organ, topic] : topics_.states) advertise<OrganState>(topic, kQueue);
 
-  if (!sources_.protocol.empty()) advertise<std_msgs::String>(topics_.protocol, 1);
   publishSources();
 }
 

@@ -1,9 +1,7 @@
 #include "sensory_growth/ros/recording.h"
 
-#include <cctype>
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <stdexcept>
@@ -11,10 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include "sensory_growth/ros/confined_file.h"
+
 namespace sensory_growth::node {
 namespace {
 
-constexpr char kExtension[] = ".bag";
 constexpr char kActive[] = ".active";
 constexpr std::size_t kMostQueued = 64;               // messages; what waits must be on disk soon after Ctrl-C
 constexpr std::uint64_t kSpaceCheckInterval = 100;    // messages
@@ -31,17 +30,6 @@ rosbag::CompressionType toRosbag(Compression compression) {
       return rosbag::compression::BZ2;
   }
   return rosbag::compression::Uncompressed;
-}
-
-bool isPlainName(const std::string& file) {
-  for (const char c : file) {
-    if (!std::isalnum(static_cast<unsigned char>(c)) && !std::strchr("_-.", c)) return false;
-  }
-  return !file.empty() && file.front() != '.' && file.front() != '-';
-}
-
-bool endsWith(const std::string& text, const std::string& end) {
-  return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
 /// A bag that cannot be closed cannot be destroyed either, since its destructor would throw: it stays until the end.
@@ -61,13 +49,7 @@ std::string describe(const std::exception& failure) {
 }  // namespace
 
 std::string recordingPath(const std::string& directory, const std::string& file) {
-  if (directory.empty()) throw std::invalid_argument("~recording_directory is not set, so nothing can be recorded");
-  if (!isPlainName(file)) {
-    throw std::invalid_argument("file is '" + file +
-                                "'; it must be a name of letters, digits, '_', '-' and '.', without a directory");
-  }
-  if (!endsWith(file, kExtension)) throw std::invalid_argument("file is '" + file + "'; it must end in .bag");
-  const std::string path = (std::filesystem::absolute(directory) / file).string();
+  const std::string path = confinedPath({"recording_directory", directory, ".bag"}, file);
   for (const std::string& taken : {path, path + kActive}) {
     if (std::filesystem::exists(taken)) throw std::invalid_argument(taken + " exists already");
   }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "sensory_growth/ros/conversions.h"
+#include "sensory_growth/ros/loaded_scenario.h"
 #include "sensory_growth/ros/names.h"
 
 namespace sensory_growth::node {
@@ -53,6 +54,7 @@ Reporter::Topics Reporter::makeTopics(const std::vector<std::string>& organs, co
   topics.status = {resolve(names::kStatus), true};
   topics.stimuli = {resolve(names::kStimuli), true};
   topics.applied = {resolve(names::kAppliedCommands), false};
+  topics.checkpoint = {resolve(names::kCheckpoint), true};
   topics.scenario = {resolve(names::kScenario), true};
   topics.protocol = {resolve(names::kProtocol), true};
   topics.parameters = {resolve(names::kParameters), true};
@@ -65,13 +67,20 @@ Reporter::Topics Reporter::makeTopics(const std::vector<std::string>& organs, co
   return topics;
 }
 
+void Reporter::onCheckpoint(const simulation::Checkpoint& checkpoint, const Snapshot& snapshot) {
+  // Not recorded: the texts in a bag are those that it began with, the others are in its checkpoints.
+  sources_.scenario = checkpoint.scenario;
+  sources_.protocol = checkpoint.protocol;
+  publishSources();
+  beginHistory(snapshot.epoch);
+  origin_ = shared(toMessage(checkpoint, snapshot, parameters_.world_frame));
+  send(topics_.checkpoint, snapshot.stamp, *origin_);
+  if (marker_settings_) send(topics_.tf_static, snapshot.stamp, shared(staticTransforms(snapshot, frames_)));
+}
+
 void Reporter::onState(const SnapshotPtr& snapshot) {
   if (!marker_settings_) marker_settings_ = makeMarkerSettings(parameters_, *snapshot);
-  if (snapshot->epoch != history_epoch_) {
-    history_.clear();
-    history_is_cut_ = false;
-    history_epoch_ = snapshot->epoch;
-  }
+  if (snapshot->epoch != history_epoch_) beginHistory(snapshot->epoch);
   if (last_stamp_.isZero()) publish(topics_.tf_static, shared(staticTransforms(*snapshot, frames_)));
   if (snapshot->stamp < last_stamp_) goBack(*snapshot);
   const bool is_new = snapshot->stamp != std::exchange(last_stamp_, snapshot->stamp);
@@ -99,7 +108,7 @@ void Reporter::onStatus(const RunStatus& status, const Snapshot& snapshot) {
   message.header = makeHeader(snapshot, parameters_.world_frame);
   message.mode = toConstant(status.mode);
   message.message = status.message;
-  message.scenario = sources_.scenario_name;
+  message.scenario = snapshot.scenario;
   message.step_index = snapshot.step_index;
   message.epoch = snapshot.epoch;
   message.checksum = snapshot.checksum;
@@ -117,9 +126,13 @@ void Reporter::onStatus(const RunStatus& status, const Snapshot& snapshot) {
   if (!splitRecording(snapshot)) record(topics_.status, snapshot.stamp, shown);
 }
 
+simulation::Checkpoint Reporter::checkpointOf(simulation::SimulationState state) const {
+  return {version(), sources_.scenario, sources_.protocol, std::move(state)};
+}
+
 std::optional<std::string> Reporter::startRecording(const std::string& file, const Snapshot& snapshot) {
   if (history_is_cut_) return kHistoryIsCut;
-  if (auto refusal = recorder_.start(file.empty() ? datedFile() : file)) return refusal;
+  if (auto refusal = recorder_.start(file.empty() ? datedFile(snapshot) : file)) return refusal;
   beginBag(snapshot);
   recordState(snapshot);
   return std::nullopt;
@@ -150,6 +163,13 @@ void Reporter::record(const Topic& topic, const ros::Time& stamp, const Message&
   std::visit([&](const auto& content) { recording->write(topic.name, topic.is_latched, stamp, content); }, message);
 }
 
+void Reporter::beginHistory(std::uint32_t epoch) {
+  origin_.reset();
+  history_.clear();
+  history_is_cut_ = false;
+  history_epoch_ = epoch;
+}
+
 void Reporter::goBack(const Snapshot& snapshot) {
   // Listeners forget what they hold when time runs backwards, and a bag in which it does cannot be played.
   publishSources();
@@ -168,6 +188,7 @@ void Reporter::beginBag(const Snapshot& snapshot) {
   recorded_markers_.reset();
   for (const auto& [topic, message] : sources()) record(topic, snapshot.stamp, message);
   record(topics_.tf_static, snapshot.stamp, shared(staticTransforms(snapshot, frames_)));
+  if (origin_) record(topics_.checkpoint, snapshot.stamp, *origin_);
   for (const Message& command : history_) record(topics_.applied, snapshot.stamp, command);
   if (Recording* recording = recorder_.recording()) recording->countFromHere();
 }
@@ -195,19 +216,18 @@ std::vector<std::pair<Reporter::Topic, Message>> Reporter::sources() const {
     message.data = yaml;
     return shared(std::move(message));
   };
-  std::vector<std::pair<Topic, Message>> messages = {{topics_.parameters, text(sources_.parameters)},
-                                                     {topics_.scenario, text(sources_.scenario)}};
-  if (!sources_.protocol.empty()) messages.emplace_back(topics_.protocol, text(sources_.protocol));
-  return messages;
+  return {{topics_.parameters, text(sources_.parameters)},
+          {topics_.scenario, text(sources_.scenario)},
+          {topics_.protocol, text(sources_.protocol)}};
 }
 
-std::string Reporter::datedFile() const {
+std::string Reporter::datedFile(const Snapshot& snapshot) const {
   const std::time_t now = std::time(nullptr);
   std::tm local{};
   localtime_r(&now, &local);
   char date[32];
   std::strftime(date, sizeof date, "%Y-%m-%d-%H-%M-%S", &local);
-  return sources_.scenario_name + "_" + date + ".bag";
+  return snapshot.scenario + "_" + date + ".bag";
 }
 
 }  // namespace sensory_growth::node

@@ -19,13 +19,13 @@ simulation::StepReport stepGuarded(simulation::Simulation& simulation) {
 }  // namespace
 
 Run::Run(simulation::Simulation simulation, Stamps next_stamp, StimulusCounters& counters, RunListener& listener,
-         std::uint32_t epoch)
+         std::uint32_t epoch, const std::optional<simulation::Checkpoint>& origin)
     : simulation_(std::move(simulation)),
       next_stamp_(std::move(next_stamp)),
       counters_(counters),
       listener_(listener),
       epoch_(epoch) {
-  showFirstState();
+  showFirstState(origin);
 }
 
 simulation::StepReport Run::step() {
@@ -52,7 +52,15 @@ simulation::AppliedCommand Run::apply(const simulation::Command& command) {
 void Run::reset() {
   simulation_.reset();
   ++epoch_;
-  showFirstState();
+  showFirstState(std::nullopt);
+}
+
+void Run::load(simulation::Simulation simulation, simulation::Checkpoint checkpoint, bool keep_stimuli) {
+  if (keep_stimuli) simulation.takeStimuliOf(simulation_);
+  simulation_ = std::move(simulation);
+  checkpoint.state = simulation_.state();
+  ++epoch_;
+  showFirstState(checkpoint);
 }
 
 SnapshotPtr Run::snapshot() const {
@@ -60,8 +68,9 @@ SnapshotPtr Run::snapshot() const {
   return snapshot_;
 }
 
-void Run::showFirstState() {
+void Run::showFirstState(const std::optional<simulation::Checkpoint>& origin) {
   setSnapshot(next_stamp_());
+  if (origin) listener_.onCheckpoint(*origin, *snapshot_);
   listener_.onState(snapshot_);
   showApplied();
   listener_.onStimuli(*snapshot_);

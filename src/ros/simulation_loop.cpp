@@ -69,10 +69,23 @@ Answer SimulationLoop::setRealTimeFactor(double factor) {
   });
 }
 
+Answer SimulationLoop::load(simulation::Simulation simulation, const simulation::Checkpoint& checkpoint,
+                            bool keep_stimuli) {
+  // By reference: this waits until the request is done or dropped.
+  return ask([&](const Reply& reply) { loadNow(reply, std::move(simulation), checkpoint, keep_stimuli); });
+}
+
 Answer SimulationLoop::apply(const simulation::Command& command) {
   return ask([this, command](const Reply& reply) {
     const std::string refusal = applyNow(command).refusal;
     reply->set_value(answer(refusal.empty(), refusal.empty() ? "applied" : refusal));
+  });
+}
+
+Answer SimulationLoop::save(const std::function<void(simulation::SimulationState)>& take) {
+  return ask([this, take](const Reply& reply) {
+    take(run_.state());
+    reply->set_value(answer(true, ""));
   });
 }
 
@@ -183,6 +196,19 @@ void SimulationLoop::jumpBack() {
 void SimulationLoop::beginRunning() {
   pacer_.start(std::chrono::steady_clock::now());
   clock_.start();
+}
+
+void SimulationLoop::loadNow(const Reply& reply, simulation::Simulation simulation,
+                             const simulation::Checkpoint& checkpoint, bool keep_stimuli) {
+  abortSteps("load_checkpoint");
+  run_.load(std::move(simulation), checkpoint, keep_stimuli);
+  if (run_.finished()) {
+    setMode(Mode::finished, kFinished);
+  } else {
+    setMode(mode_ == Mode::running ? Mode::running : Mode::paused);
+  }
+  if (mode_ == Mode::running) beginRunning();
+  reply->set_value(answer(true, "at step " + std::to_string(checkpoint.state.step_index)));
 }
 
 void SimulationLoop::stepNow(const Reply& reply, std::uint32_t steps) {

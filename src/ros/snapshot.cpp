@@ -8,10 +8,12 @@ namespace sensory_growth::node {
 
 SnapshotPtr takeSnapshot(const simulation::Simulation& simulation, const ros::Time& stamp, std::uint32_t epoch) {
   auto snapshot = std::make_shared<Snapshot>();
+  snapshot->scenario = simulation.scenario().name;
   snapshot->stamp = stamp;
   snapshot->step_index = simulation.stepIndex();
   snapshot->epoch = epoch;
   snapshot->growth_time = simulation.time();
+  snapshot->duration = simulation.scenario().duration;
   snapshot->checksum = simulation::checksum(simulation);
   snapshot->gravity = simulation.gravity();
   snapshot->environment = simulation.environment();

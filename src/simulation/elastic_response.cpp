@@ -2,11 +2,27 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <stdexcept>
+#include <utility>
 
 namespace sensory_growth::simulation {
+namespace {
+
+constexpr double kMostAmplification = 20.0;
+constexpr double kFastest = 1e30;  // [1/(m s)]; beyond it, curvatures are no longer finite
+
+}  // namespace
+
+ElasticResponse::ElasticResponse(std::vector<rod::Vector3> trend, double amplification)
+    : trend_(std::move(trend)), amplification_(amplification) {
+  const auto is_rate = [](const rod::Vector3& rate) { return (rate.array().abs() <= kFastest).all(); };
+  if (!std::all_of(trend_.begin(), trend_.end(), is_rate) ||
+      !(amplification_ >= 1.0 && amplification_ <= kMostAmplification)) {
+    throw std::invalid_argument("the elastic response is none that an organ can have");
+  }
+}
 
 void ElasticResponse::learn(const rod::Rod& before, const rod::Rod& after, double dt) {
-  constexpr double kMostAmplification = 20.0;
   trend_.assign(after.size(), rod::Vector3::Zero());
   double turning = 0.0;
   double rest_turning = 0.0;

@@ -11,6 +11,14 @@
 #include "sensory_growth/rod/division.h"
 
 namespace sensory_growth::simulation {
+namespace {
+
+/// Of the step that led to this moment, not of one that failed since.
+const OrganReport& goodReport(const OrganMoment& now, const OrganMoment& before_step) {
+  return now.report.ok() ? now.report : before_step.report;
+}
+
+}  // namespace
 
 Organ::Organ(const OrganScenario& organ, const Scenario& scenario)
     : scenario_(organ),
@@ -32,18 +40,17 @@ Organ::Organ(const OrganScenario& organ, const Scenario& scenario)
     if (fault) throw std::invalid_argument("organ '" + organ.id + "': " + *fault);
   }
 
-  rod_ = rod::straightRod(organ.base, organ.length, organ.elements, organ.section);
-  rod_.base_support = organ.base_support;
-  for (std::size_t j = rod_.firstBend(); j < rod_.size(); ++j) {
-    rod_.bends[j].curvature = rod_.bends[j].rest_curvature = organ.rest_curvature;
+  now_.rod = rod::straightRod(organ.base, organ.length, organ.elements, organ.section);
+  now_.rod.base_support = organ.base_support;
+  for (std::size_t j = now_.rod.firstBend(); j < now_.rod.size(); ++j) {
+    now_.rod.bends[j].curvature = now_.rod.bends[j].rest_curvature = organ.rest_curvature;
   }
-  report_.divisions = rod::divideLongElements(rod_, organ.longest_element, organ.division);
-  report_.fault = relaxFromAnywhere();
-  if (!report_.ok()) {
-    throw std::invalid_argument("organ '" + organ.id + "' has no equilibrium to start from: " + describe(report_));
+  now_.report.divisions = rod::divideLongElements(now_.rod, organ.longest_element, organ.division);
+  now_.report.fault = relaxFromAnywhere();
+  if (!now_.report.ok()) {
+    throw std::invalid_argument("organ '" + organ.id + "' has no equilibrium to start from: " + describe(now_.report));
   }
-  before_step_ = rod_;
-  report_before_step_ = report_;
+  before_step_ = now_;
 }
 
 const OrganReport& Organ::advance(double dt, const growth::Environment& environment) {
@@ -51,14 +58,13 @@ const OrganReport& Organ::advance(double dt, const growth::Environment& environm
   if (!has_begun_) begin();
   has_begun_ = false;
   const auto giveUp = [this](OrganFault fault) -> const OrganReport& {
-    rod_ = before_step_;
-    perception_.takeBack(perception_before_step_);
-    response_ = response_before_step_;
-    weight_changed_ = weight_changed_before_step_;
-    report_.fault = fault;
-    return report_;
+    const OrganReport report = now_.report;
+    takeBack();
+    now_.report = report;
+    now_.report.fault = fault;
+    return now_.report;
   };
-  if (!report_.ok()) return giveUp(report_.fault);
+  if (!now_.report.ok()) return giveUp(now_.report.fault);
 
   double remaining = dt;
   double longest_allowed = dt;
@@ -74,97 +80,136 @@ const OrganReport& Organ::advance(double dt, const growth::Environment& environm
     const double parts = std::max(1.0, std::ceil(stretch / limit * (1.0 - 1e-12)));
     const double part = stretch / parts;
 
-    if (!startsWithStep()) before_part_ = rod_;
+    if (!startsWithStep()) before_part_ = now_.rod;
     const OrganFault fault = growAndRelax(part, environment, time);
     if (fault == OrganFault::too_many_elements) return giveUp(fault);
     if (fault == OrganFault::none) {
       remaining = part < remaining ? remaining - part : 0.0;
       longest_allowed = dt;
-      ++report_.substeps;
+      ++now_.report.substeps;
       if (perception_.hasMemory()) {
-        perception_.remember(scenario_.senses, environment, time + part, rod_, cues_);
+        perception_.remember(scenario_.senses, environment, time + part, now_.rod, cues_);
       }
     } else {
-      rod_ = beforePart();
-      response_.forgetTrend();
+      now_.rod = beforePart();
+      now_.response.forgetTrend();
       longest_allowed = 0.5 * part;
-      ++report_.retries;
+      ++now_.report.retries;
     }
   }
-  return report_;
+  return now_.report;
 }
 
 void Organ::undo() {
-  std::swap(rod_, before_step_);
-  perception_.takeBack(perception_before_step_);
-  report_ = report_before_step_;
-  response_ = response_before_step_;
-  weight_changed_ = weight_changed_before_step_;
+  takeBack();
   has_begun_ = false;
+}
+
+void Organ::takeBack() {
+  now_ = before_step_;
+  perception_.takeBack(perception_before_step_);
 }
 
 void Organ::setGravity(const rod::Vector3& gravity) {
   if (!has_weight_) return;
   loads_.gravity = gravity;
   // An organ in continuous motion takes the change as it comes.
-  weight_changed_ = method_ != RelaxationMethod::continuous;
+  now_.weight_changed = method_ != RelaxationMethod::continuous;
 }
 
 void Organ::begin() {
-  before_step_ = rod_;
-  report_before_step_ = report_;
-  response_before_step_ = response_;
-  weight_changed_before_step_ = weight_changed_;
+  now_.report = goodReport(now_, before_step_);
+  before_step_ = now_;
   perception_.forgetTheOld();
   perception_.setMark(perception_before_step_);
   has_begun_ = true;
-  report_ = {};
-  if (!weight_changed_) return;
-  report_.fault = relaxFromAnywhere();
-  weight_changed_ = false;
+  now_.report = {};
+  if (!now_.weight_changed) return;
+  now_.report.fault = relaxFromAnywhere();
+  now_.weight_changed = false;
+}
+
+OrganState Organ::state() const {
+  OrganState state{scenario_.id, now_, perception_.histories(), {}};
+  state.moment.report = goodReport(now_, before_step_);
+  for (const Parameter& parameter : simulation::parameters()) {
+    if (const auto value = parameter.get(scenario_)) state.parameters.push_back({parameter.name, *value});
+  }
+  return state;
+}
+
+void Organ::restore(const OrganState& state, double time) {
+  if (const auto fault = findFault(state.moment)) throw std::invalid_argument(*fault);
+  const rod::Rod& rod = state.moment.rod;
+  if (rod.base_support != scenario_.base_support) throw std::invalid_argument("the rod is held in another way");
+  for (const growth::History& history : state.memories) {
+    if (!history.empty() && history.back().time > time * (1.0 + growth::kSameTime)) {
+      throw std::invalid_argument("it remembers what is yet to come");
+    }
+  }
+  restoreParameters(state.parameters);
+  perception_.restore(state.memories, rod);
+  now_ = before_step_ = state.moment;
+}
+
+void Organ::restoreParameters(const std::vector<ParameterValue>& values) {
+  const auto has = [this](const Parameter& parameter) { return parameter.get(scenario_).has_value(); };
+  const auto& all = simulation::parameters();
+  if (values.size() != static_cast<std::size_t>(std::count_if(all.begin(), all.end(), has))) {
+    throw std::invalid_argument("its parameters are those of another organ");
+  }
+  for (const auto& [name, value] : values) {
+    if (const auto fault = findFault(ParameterCommand{scenario_.id, name, value})) throw std::invalid_argument(*fault);
+    const Parameter& parameter = *findParameter(name);
+    if (!has(parameter)) throw std::invalid_argument("it has no " + name);
+    parameter.set(scenario_, value);
+  }
+  for (const auto& fault : {growth::findFault(scenario_.senses), growth::findFault(scenario_.bending)}) {
+    if (fault) throw std::invalid_argument(*fault);
+  }
 }
 
 /// Expects rates_, factors_ and drive_ at the start of the part, as longestPart() leaves them.
 OrganFault Organ::growAndRelax(double dt, const growth::Environment& environment, double time) {
   const growth::GrowthStrain& strain = growthStrain(dt);
   // Half of the aging comes before the growth of the rest state and half after, so that neither sees the other late.
-  if (scenario_.aging) deposition_.begin(rod_.size());
+  if (scenario_.aging) deposition_.begin(now_.rod.size());
   growOlder(strain, dt, 0.5);
-  if (scenario_.elongation) growth::elongate(rod_, strain, scenario_.twist_transport, drive_);
+  if (scenario_.elongation) growth::elongate(now_.rod, strain, scenario_.twist_transport, drive_);
   if (scenario_.bending.rotation) {
-    growth::elementRates(scenario_.profile, factors_, rod_, new_rates_);
-    growth::turn(rod_, *scenario_.bending.rotation, rates_, new_rates_, dt, drive_);
+    growth::elementRates(scenario_.profile, factors_, now_.rod, new_rates_);
+    growth::turn(now_.rod, *scenario_.bending.rotation, rates_, new_rates_, dt, drive_);
   }
-  growth::predict(rod_, scenario_.bending, strain, drive_);
+  growth::predict(now_.rod, scenario_.bending, strain, drive_);
   growOlder(strain, dt, 1.0);
   // Deposition moves the elastic part on its own.
-  trend_is_known_ = method_ == RelaxationMethod::statics && !scenario_.aging && response_.knowsTrend(rod_);
-  if (trend_is_known_) response_.anticipate(rod_, dt);
+  trend_is_known_ = method_ == RelaxationMethod::statics && !scenario_.aging && now_.response.knowsTrend(now_.rod);
+  if (trend_is_known_) now_.response.anticipate(now_.rod, dt);
   const bool moves = method_ == RelaxationMethod::continuous;
   const auto relax_predicted = [&] { return stepping_.second_order ? relaxInPassing() : relax(); };
   if ((moves ? move(dt / growth_per_second_) : relax_predicted()) != OrganFault::none) return OrganFault::relaxation;
 
   if (stepping_.second_order) {
-    perception_.expect(scenario_.senses, environment, time + dt, rod_, cues_);
-    growth::drive(rod_, scenario_.bending, cues_, new_drive_);
-    growth::correct(rod_, scenario_.bending, strain, drive_, new_drive_);
+    perception_.expect(scenario_.senses, environment, time + dt, now_.rod, cues_);
+    growth::drive(now_.rod, scenario_.bending, cues_, new_drive_);
+    growth::correct(now_.rod, scenario_.bending, strain, drive_, new_drive_);
     if (scenario_.stress_coupling) correctFactors(strain, dt);
-    if (scenario_.aging) deposition_.correct(rod_, beforePart());
-    if (moves) rod_.rebuild();
+    if (scenario_.aging) deposition_.correct(now_.rod, beforePart());
+    if (moves) now_.rod.rebuild();
     if (!moves && relaxCorrected() != OrganFault::none) return OrganFault::relaxation;
   }
   learnElasticResponse(dt);
 
-  const std::size_t divisions = rod::divideLongElements(rod_, scenario_.longest_element, scenario_.division);
-  report_.divisions += divisions;
-  if (rod_.size() > kMostElements) return OrganFault::too_many_elements;
+  const std::size_t divisions = rod::divideLongElements(now_.rod, scenario_.longest_element, scenario_.division);
+  now_.report.divisions += divisions;
+  if (now_.rod.size() > kMostElements) return OrganFault::too_many_elements;
   return divisions == 0 || moves ? OrganFault::none : relax();
 }
 
 void Organ::learnElasticResponse(double dt) {
   if (method_ == RelaxationMethod::kinematics || method_ == RelaxationMethod::continuous) return;
-  response_.learn(beforePart(), rod_, dt);
-  if (report_.relaxation.branch_switches > 0) response_.forgetTrend();
+  now_.response.learn(beforePart(), now_.rod, dt);
+  if (now_.report.relaxation.branch_switches > 0) now_.response.forgetTrend();
 }
 
 const growth::GrowthStrain& Organ::growthStrain(double dt) {
@@ -175,33 +220,33 @@ const growth::GrowthStrain& Organ::growthStrain(double dt) {
 /// Ages the organ by a share of the time that it does not spend growing, as it stood before.
 void Organ::growOlder(const growth::GrowthStrain& strain, double dt, double share) {
   if (!scenario_.aging) return;
-  growth::growOlder(rod_, beforePart(), *scenario_.aging, scenario_.section, strain,
+  growth::growOlder(now_.rod, beforePart(), *scenario_.aging, scenario_.section, strain,
                     growth::largestRate(scenario_.profile), dt, share);
-  deposition_.predict(rod_, beforePart());
+  deposition_.predict(now_.rod, beforePart());
 }
 
 /// Grows by what the mean of the growth factors at the start and the end of the part adds to the predicted strain.
 void Organ::correctFactors(const growth::GrowthStrain& strain, double dt) {
   predicted_strain_ = strain;
-  growth::stressFactors(*scenario_.stress_coupling, rod_, new_factors_);
+  growth::stressFactors(*scenario_.stress_coupling, now_.rod, new_factors_);
   for (std::size_t e = 0; e < factors_.size(); ++e) factors_[e] = 0.5 * (factors_[e] + new_factors_[e]);
   growth::elementRates(scenario_.profile, factors_, beforePart(), rates_);
   const growth::GrowthStrain& corrected = growthStrain(dt);
   growth::difference(predicted_strain_, corrected, extra_strain_);
-  if (scenario_.elongation) growth::elongate(rod_, extra_strain_, scenario_.twist_transport, new_drive_);
-  growth::predict(rod_, scenario_.bending, extra_strain_, new_drive_);
+  if (scenario_.elongation) growth::elongate(now_.rod, extra_strain_, scenario_.twist_transport, new_drive_);
+  growth::predict(now_.rod, scenario_.bending, extra_strain_, new_drive_);
   growOlder(corrected, dt, 1.0);
 }
 
 OrganFault Organ::relax() {
   switch (method_) {
     case RelaxationMethod::statics:
-      return take(equilibrium_.relax(rod_, loads_, mechanics::Stability::decided));
+      return take(equilibrium_.relax(now_.rod, loads_, mechanics::Stability::decided));
     case RelaxationMethod::dynamics:
     case RelaxationMethod::continuous:
-      return take(dynamics_.relax(rod_, loads_));
+      return take(dynamics_.relax(now_.rod, loads_));
     case RelaxationMethod::kinematics:
-      return take(mechanics::assumeRestShape(rod_, relaxation_settings_));
+      return take(mechanics::assumeRestShape(now_.rod, relaxation_settings_));
   }
   return OrganFault::none;
 }
@@ -210,33 +255,33 @@ OrganFault Organ::relax() {
 OrganFault Organ::relaxFromAnywhere() {
   const OrganFault fault = relax();
   if (fault == OrganFault::none || method_ != RelaxationMethod::statics) return fault;
-  return take(equilibrium_.relaxInLoadSteps(rod_, loads_));
+  return take(equilibrium_.relaxInLoadSteps(now_.rod, loads_));
 }
 
 /// The predicted equilibrium is only sensed: it need not be stable, nor more exact than the step.
 OrganFault Organ::relaxInPassing() {
-  return method_ == RelaxationMethod::statics ? take(equilibrium_.approach(rod_, loads_, trend_is_known_ ? 1 : 2))
+  return method_ == RelaxationMethod::statics ? take(equilibrium_.approach(now_.rod, loads_, trend_is_known_ ? 1 : 2))
                                               : relax();
 }
 
 OrganFault Organ::relaxCorrected() {
   const bool only_curvature_was_corrected = !scenario_.stress_coupling && !scenario_.aging;
   if (method_ != RelaxationMethod::statics || !only_curvature_was_corrected) return relax();
-  return take(equilibrium_.relaxCorrected(rod_, loads_));
+  return take(equilibrium_.relaxCorrected(now_.rod, loads_));
 }
 
 std::optional<double> Organ::lowestEigenvalue() const {
   const bool was_only_decided = method_ == RelaxationMethod::statics && loads_.surroundings.empty();
-  if (!was_only_decided) return report_.relaxation.lowest_eigenvalue;
-  return mechanics::StaticEquilibrium(relaxation_settings_).lowestEigenvalue(rod_, loads_);
+  if (!was_only_decided) return now_.report.relaxation.lowest_eigenvalue;
+  return mechanics::StaticEquilibrium(relaxation_settings_).lowestEigenvalue(now_.rod, loads_);
 }
 
-OrganFault Organ::move(double duration) { return take(dynamics_.advance(rod_, loads_, duration)); }
+OrganFault Organ::move(double duration) { return take(dynamics_.advance(now_.rod, loads_, duration)); }
 
 OrganFault Organ::take(const mechanics::RelaxationReport& relaxation) {
-  report_.relaxation = relaxation;
-  report_.iterations += relaxation.iterations;
-  report_.branch_switches += relaxation.branch_switches;
+  now_.report.relaxation = relaxation;
+  now_.report.iterations += relaxation.iterations;
+  now_.report.branch_switches += relaxation.branch_switches;
   return relaxation.ok() ? OrganFault::none : OrganFault::relaxation;
 }
 
@@ -244,11 +289,11 @@ OrganFault Organ::take(const mechanics::RelaxationReport& relaxation) {
 double Organ::longestPart(const growth::Environment& environment, double time) {
   const StepLimits& limits = stepping_.limits;
   const growth::BendingLaw& law = scenario_.bending;
-  if (scenario_.stress_coupling) growth::stressFactors(*scenario_.stress_coupling, rod_, factors_);
-  growth::elementRates(scenario_.profile, factors_, rod_, rates_);
-  perception_.remember(scenario_.senses, environment, time, rod_, cues_);
-  const double differential_growth = growth::drive(rod_, law, cues_, drive_);
-  report_.largest_differential_growth = std::max(report_.largest_differential_growth, differential_growth);
+  if (scenario_.stress_coupling) growth::stressFactors(*scenario_.stress_coupling, now_.rod, factors_);
+  growth::elementRates(scenario_.profile, factors_, now_.rod, rates_);
+  perception_.remember(scenario_.senses, environment, time, now_.rod, cues_);
+  const double differential_growth = growth::drive(now_.rod, law, cues_, drive_);
+  now_.report.largest_differential_growth = std::max(now_.report.largest_differential_growth, differential_growth);
 
   const double rotation = law.rotation ? std::abs(law.rotation->angularVelocity()) : 0.0;
   double fastest_growth = 0.0;
@@ -256,16 +301,16 @@ double Organ::longestPart(const growth::Environment& environment, double time) {
   double total_turning = 0.0;
   double tip_speed = 0.0;
   double fastest_stress = 0.0;  // that builds up where growth is held
-  for (std::size_t j = 0; j < rod_.size(); ++j) {
-    const double growth_rate = rod::voronoiMean(rod_, j, [this](std::size_t e) { return rates_[e]; });
-    double bending = growth_rate * growth::bendingRate(rod_, law, drive_, j).norm();
-    if (growth_rate > 0.0) bending += rotation * rod_.bends[j].rest_curvature.head<2>().norm();
-    const double turning = rod_.voronoiLength(j) * bending;
+  for (std::size_t j = 0; j < now_.rod.size(); ++j) {
+    const double growth_rate = rod::voronoiMean(now_.rod, j, [this](std::size_t e) { return rates_[e]; });
+    double bending = growth_rate * growth::bendingRate(now_.rod, law, drive_, j).norm();
+    if (growth_rate > 0.0) bending += rotation * now_.rod.bends[j].rest_curvature.head<2>().norm();
+    const double turning = now_.rod.voronoiLength(j) * bending;
     fastest_growth = std::max(fastest_growth, rates_[j]);
-    fastest_stress = std::max(fastest_stress, rates_[j] * rod_.elements[j].section.young_modulus);
+    fastest_stress = std::max(fastest_stress, rates_[j] * now_.rod.elements[j].section.young_modulus);
     fastest_bend = std::max(fastest_bend, turning);
     total_turning += turning;
-    tip_speed += rod_.elements[j].rest_length * rates_[j];
+    tip_speed += now_.rod.elements[j].rest_length * rates_[j];
   }
 
   const auto longest = [](double limit, double speed) {
@@ -280,21 +325,21 @@ double Organ::longestPart(const growth::Environment& environment, double time) {
   if (scenario_.stress_coupling) {
     dt = std::min(dt, longest(limits.growth_stress * scenario_.stress_coupling->yield_margin, fastest_stress));
   }
-  dt = std::min(dt, longest(limits.bend_angle, response_.amplification() * fastest_bend));
-  return std::min(dt, longest(limits.total_angle, response_.amplification() * total_turning));
+  dt = std::min(dt, longest(limits.bend_angle, now_.response.amplification() * fastest_bend));
+  return std::min(dt, longest(limits.total_angle, now_.response.amplification() * total_turning));
 }
 
 growth::CueFields Organ::cues(const growth::Environment& environment) const {
   growth::CueFields cues;
-  growth::Perception(perception_).expect(scenario_.senses, environment, environment.time, rod_, cues);
+  growth::Perception(perception_).expect(scenario_.senses, environment, environment.time, now_.rod, cues);
   return cues;
 }
 
 std::vector<double> Organ::growthRates() const {
   std::vector<double> rates;
   growth::GrowthFactors factors;
-  if (scenario_.stress_coupling) growth::stressFactors(*scenario_.stress_coupling, rod_, factors);
-  growth::elementRates(scenario_.profile, factors, rod_, rates);
+  if (scenario_.stress_coupling) growth::stressFactors(*scenario_.stress_coupling, now_.rod, factors);
+  growth::elementRates(scenario_.profile, factors, now_.rod, rates);
   return rates;
 }
 

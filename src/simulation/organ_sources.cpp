@@ -1,6 +1,7 @@
 #include "sensory_growth/simulation/organ_sources.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace sensory_growth::simulation {
 namespace {
@@ -44,6 +45,22 @@ void OrganSources::follow(const std::vector<Organ>& organs, double dt) {
     const bool has_snapped = organs[source.organ].report().branch_switches > 0;
     source.point.velocity = has_snapped ? rod::Vector3::Zero() : rod::Vector3((source.point.position - before) / dt);
   }
+}
+
+std::vector<rod::Vector3> OrganSources::velocities() const {
+  std::vector<rod::Vector3> velocities;
+  for (const Source& source : sources_) velocities.push_back(source.point.velocity);
+  return velocities;
+}
+
+void OrganSources::restore(const std::vector<Organ>& organs, const std::vector<rod::Vector3>& velocities) {
+  const bool is_finite =
+      std::all_of(velocities.begin(), velocities.end(), [](const rod::Vector3& v) { return v.allFinite(); });
+  if (velocities.size() != sources_.size() || !is_finite) {
+    throw std::invalid_argument("the velocities of the organs that others sense are not those of such organs");
+  }
+  locate(organs);
+  for (std::size_t i = 0; i < sources_.size(); ++i) sources_[i].point.velocity = velocities[i];
 }
 
 const growth::Environment& OrganSources::seenBy(std::size_t organ, const growth::Environment& surroundings) {

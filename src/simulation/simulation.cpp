@@ -15,6 +15,27 @@ std::vector<Organ> buildOrgans(const Scenario& scenario) {
   return organs;
 }
 
+/// Of stimuli in force, which are not changed by what looks at them: a direction made a unit vector twice is another.
+void checkStimuli(const SimulationState& state) {
+  const auto require = [](const std::optional<std::string>& fault, const std::string& id) {
+    if (fault) throw std::invalid_argument("stimulus '" + id + "': " + *fault);
+  };
+  for (const auto& [id, position, strength, velocity] : state.point_sources) {
+    require(findFault(StimulusCommand{StimulusKind::point_source, StimulusOperation::add, id, position, strength}), id);
+    if (!velocity.isZero(0.0)) throw std::invalid_argument("stimulus '" + id + "' moves on its own");
+  }
+  for (const auto& [id, towards, strength] : state.light_directions) {
+    require(findFault(StimulusCommand{StimulusKind::light_direction, StimulusOperation::add, id, towards, strength}),
+            id);
+    if (std::abs(towards.norm() - 1.0) > 1e-9) {
+      throw std::invalid_argument("stimulus '" + id + "' has a direction that is no unit vector");
+    }
+  }
+  if (state.point_sources.size() > kMostStimuli || state.light_directions.size() > kMostStimuli) {
+    throw std::invalid_argument("there are more than " + std::to_string(kMostStimuli) + " stimuli of a kind");
+  }
+}
+
 }  // namespace
 
 Simulation::Simulation(Scenario scenario, int threads) : scenario_(std::move(scenario)), workers_(threads) {
@@ -25,6 +46,11 @@ Simulation::Simulation(Scenario scenario, int threads) : scenario_(std::move(sce
     throw std::invalid_argument("the protocol must be in order of time");
   }
   reset();
+}
+
+Simulation::Simulation(Scenario scenario, const SimulationState& state, int threads)
+    : Simulation(std::move(scenario), threads) {
+  restore(state);
 }
 
 void Simulation::reset() {
@@ -38,6 +64,55 @@ void Simulation::reset() {
   next_in_protocol_ = 0;
   applied_.clear();
   applyDue();
+}
+
+SimulationState Simulation::state() const {
+  SimulationState state{
+      step_index_,          gravity_, gravity_changed_, environment_.point_sources, environment_.light_directions, {},
+      sources_.velocities()};
+  state.organs.reserve(organs_.size());
+  for (const Organ& organ : organs_) state.organs.push_back(organ.state());
+  return state;
+}
+
+/// Of a simulation that was just built: what is thrown on the way leaves it half restored.
+void Simulation::restore(const SimulationState& state) {
+  if (state.step_index > kLatestStep) throw std::invalid_argument("the step index is beyond all that can be counted");
+  if (const auto fault = findFault(GravityCommand{state.gravity})) throw std::invalid_argument(*fault);
+  checkStimuli(state);
+  if (state.organs.size() != organs_.size()) {
+    throw std::invalid_argument("there are " + std::to_string(state.organs.size()) + " organs instead of " +
+                                std::to_string(organs_.size()));
+  }
+  step_index_ = state.step_index;
+  setGravity(state.gravity);
+  gravity_changed_ = state.gravity_changed;
+  environment_.time = time();
+  environment_.point_sources = state.point_sources;
+  environment_.light_directions = state.light_directions;
+  for (std::size_t i = 0; i < organs_.size(); ++i) {
+    const std::string& id = organs_[i].scenario().id;
+    if (state.organs[i].id != id) {
+      throw std::invalid_argument("organ '" + state.organs[i].id + "' stands in place of '" + id + "'");
+    }
+    try {
+      organs_[i].restore(state.organs[i], time());
+    } catch (const std::invalid_argument& fault) {
+      throw std::invalid_argument("organ '" + id + "': " + fault.what());
+    }
+  }
+  sources_.restore(organs_, state.source_velocities);
+  const auto is_due = [this](const TimedCommand& command) { return isDue(command); };
+  const auto& protocol = scenario_.protocol;
+  next_in_protocol_ =
+      static_cast<std::size_t>(std::partition_point(protocol.begin(), protocol.end(), is_due) - protocol.begin());
+  applied_.clear();
+}
+
+void Simulation::takeStimuliOf(const Simulation& other) {
+  environment_.point_sources = other.environment_.point_sources;
+  environment_.light_directions = other.environment_.light_directions;
+  if (other.gravity_ != gravity_) setGravity(other.gravity_);
 }
 
 StepReport Simulation::step() {
@@ -94,21 +169,28 @@ std::optional<std::string> Simulation::take(const ParameterCommand& command) {
 
 std::optional<std::string> Simulation::take(const GravityCommand& command) {
   if (auto fault = findFault(command)) return fault;
-  gravity_ = command.acceleration;
+  setGravity(command.acceleration);
+  return std::nullopt;
+}
+
+void Simulation::setGravity(const rod::Vector3& gravity) {
+  gravity_ = gravity;
   gravity_changed_ = true;
   environment_.down = gravity_.stableNormalized();
   for (Organ& organ : organs_) organ.setGravity(gravity_);
-  return std::nullopt;
 }
 
 bool Simulation::finished() const { return scenario_.duration > 0.0 && time() >= scenario_.duration * (1.0 - 1e-12); }
 
 std::vector<AppliedCommand> Simulation::takeApplied() { return std::exchange(applied_, {}); }
 
+/// A command takes effect at the first step boundary that is not earlier than its time.
+bool Simulation::isDue(const TimedCommand& command) const {
+  return command.time <= time() + 1e-9 * scenario_.stepping.step;
+}
+
 void Simulation::applyDue() {
-  // A command takes effect at the first step boundary that is not earlier than its time.
-  const double now = time() + 1e-9 * scenario_.stepping.step;
-  while (next_in_protocol_ < scenario_.protocol.size() && scenario_.protocol[next_in_protocol_].time <= now) {
+  while (next_in_protocol_ < scenario_.protocol.size() && isDue(scenario_.protocol[next_in_protocol_])) {
     apply(scenario_.protocol[next_in_protocol_++].command);
   }
 }

@@ -155,7 +155,7 @@ TEST_F(RunTest, RefusesBadInputWithWhatIsWrong) {
     std::string message;
   } cases[] = {
       {{}, "A subcommand is required"},
-      {{"run"}, "scenario is required"},
+      {{"run"}, "scenario,--from] is required"},
       {{"run", "nowhere.yaml"}, "nowhere.yaml"},
       {{"run", kShoot, "--every", "0"}, "--every"},
       {{"run", kShoot, "--threads", "-1"}, "--threads"},

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "batch/bags.h"
-#include "ros/child_process.h"
+#include "ros/batch_process.h"
 #include "ros/node_under_test.h"
 
 namespace sensory_growth::node::testing {
@@ -16,22 +16,6 @@ namespace {
 
 using batch::testing::contentsOf;
 using ::testing::HasSubstr;
-
-constexpr std::chrono::seconds kBatchPatience{60};
-
-struct BatchOutcome {
-  int code = -1;
-  std::string printed;
-};
-
-BatchOutcome batch(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), BATCH_EXECUTABLE);
-  ChildProcess child(arguments, "batch_" + std::to_string(getpid()) + ".txt");
-  BatchOutcome outcome;
-  outcome.code = child.waitForExit(kBatchPatience);
-  outcome.printed = child.printed();
-  return outcome;
-}
 
 class LiveRun : public ::testing::Test {
  protected:

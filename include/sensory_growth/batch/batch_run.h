@@ -4,6 +4,7 @@
 /// the clock; so a bag is what the node would have recorded, but for what it measures of its own speed.
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -22,15 +23,25 @@ class BatchRun {
   /// Sees every message, in order.
   using Watch = std::function<void(const node::Message&)>;
 
-  /// Shows the first state; `epoch` counts the resets before it. Opens the bag that the parameters name, if ~record.
-  /// Throws BadInput if the bag or the simulation cannot be begun.
-  BatchRun(const node::Parameters& parameters, node::LoadedScenario loaded, Watch watch, std::uint32_t epoch = 0);
+  /// A checkpoint from which to go on with the scenario, or nothing: from step 0.
+  using Origin = std::optional<simulation::Checkpoint>;
+
+  /// Shows the first state; `epoch` counts the resets and loads before it. Opens the bag that the parameters name, if
+  /// ~record. Throws BadInput if the bag or the simulation cannot be begun.
+  BatchRun(const node::Parameters& parameters, node::LoadedScenario loaded, Watch watch, std::uint32_t epoch = 0,
+           const Origin& origin = std::nullopt);
 
   /// Nothing, or why the step failed; then the run is over.
   std::optional<std::string> step();
 
   void apply(const simulation::Command& command);
   void reset();
+
+  /// Goes on from the checkpoint with its scenario. Throws BadInput if that cannot be.
+  void load(simulation::Scenario scenario, const simulation::Checkpoint& checkpoint);
+
+  /// The run as it stands.
+  simulation::Checkpoint checkpoint() const { return reporter_.checkpointOf(run_.state()); }
 
   bool finished() const { return run_.finished(); }
   node::SnapshotPtr snapshot() const { return run_.snapshot(); }
@@ -55,12 +66,16 @@ class BatchRun {
 
   void showStatus();
 
+  const int threads_;
   std::uint64_t ticks_ = 0;
   node::StimulusCounters counters_;
   Reporter reporter_;
   node::Run run_;
   std::optional<std::string> fault_;
 };
+
+/// The absolute path of a file to be written, whose folder is made. Throws BadInput if that fails.
+std::filesystem::path inFolder(const std::string& file);
 
 /// Parameters that record to the file of that path, unless it is empty. Throws BadInput if its folder cannot be made
 /// or the file exists.

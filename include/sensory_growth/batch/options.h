@@ -16,11 +16,13 @@ struct FrameOptions {
 };
 
 struct RunOptions {
-  std::string scenario;                     ///< path
+  std::string scenario;                     ///< path; empty: that of the checkpoint
+  std::string from;                         ///< path of the checkpoint to go on from; empty: from step 0
   std::string protocol;                     ///< path; empty: none
   std::optional<double> duration;           ///< growth time [s]; nothing: that of the scenario
   std::optional<double> growth_time_scale;  ///< growth seconds per second of stamps [-]; nothing: defaultScale()
   std::string bag;                          ///< path; empty: none
+  std::string checkpoint;                   ///< path for the last state; empty: none
   int marker_every = 1;                     ///< steps between markers in the bag; 0: none
   FrameOptions frames;
   int threads = 0;  ///< 0: one per processor

@@ -45,10 +45,12 @@ class Replay {
 
  private:
   void listen(const node::Message& message);
+  void begin(const RecordedEpoch& epoch);
   std::optional<std::string> follow(const RecordedEpoch& epoch, std::uint64_t step);
   std::optional<std::string> compareCommands(const std::vector<AppliedCommand>& recorded) const;
 
   const RecordedRun& recorded_;
+  const node::Parameters parameters_;
   const BatchRun::Watch watch_;
   std::vector<AppliedCommand> commands_;  // of the replay at the present step
   std::vector<std::uint64_t> checksums_;  // the same

@@ -19,6 +19,17 @@ enum class BeforeStart {
   zero,
 };
 
+/// A signal at one time, and what a kernel makes of it and its past. Sizes as `labels`.
+struct MemorySample {
+  double time = 0.0;           ///< of growth [s]
+  std::vector<double> labels;  ///< rising; one for a single sensor
+  SectionField sensed;
+  std::vector<SectionField> states;  ///< of the kernel; the first is what is perceived
+};
+
+/// Samples in order of time; two of the same time are a jump.
+using History = std::vector<MemorySample>;
+
 /// The history of one signal, given at some labels of the organ or by a single sensor.
 class Memory {
  public:
@@ -44,23 +55,23 @@ class Memory {
   /// Forgets the samples after the first `size`.
   void takeBack(std::size_t size) { size_ = size; }
 
+  /// What is kept.
+  History history() const;
+
+  /// Keeps this and nothing else. Throws std::invalid_argument if it is none of this kernel: sizes, order of times and
+  /// labels, numbers beyond all that is sensed.
+  void restore(History history);
+
   /// Forgets what is not needed from now on, if takeBack() is only used for samples kept from now on.
   void forgetTheOld();
 
  private:
-  struct Sample {
-    double time = 0.0;
-    std::vector<double> labels;
-    SectionField sensed;
-    std::vector<SectionField> states;  ///< of the kernel; the first is what is perceived
-  };
-
-  const Sample& sense(double time, const std::vector<double>& labels, const SectionField& sensed, Side side);
-  void add(const Sample& from, const SectionField& values, const StateVector& weight, Sample& to);
+  const MemorySample& sense(double time, const std::vector<double>& labels, const SectionField& sensed, Side side);
+  void add(const MemorySample& from, const SectionField& values, const StateVector& weight, MemorySample& to);
 
   MemoryKernel kernel_;
   BeforeStart before_start_;
-  std::vector<Sample> samples_;  ///< the first size_ are kept; the others lend their heap memory to new ones
+  History samples_;  ///< the first size_ are kept; the others lend their heap memory to new ones
   std::size_t size_ = 0;
   std::vector<double> times_;
   MemoryWeights weights_;

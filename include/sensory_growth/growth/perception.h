@@ -56,6 +56,13 @@ class Perception {
   void setMark(Mark& mark) const;
   void takeBack(const Mark& mark);
 
+  /// What is remembered, one for each cue of each route in their order.
+  std::vector<History> histories() const;
+
+  /// Remembers this and nothing else; `rod` is the organ as it is now. Earlier marks end. Throws std::invalid_argument
+  /// if these are no histories of such an organ with these routes.
+  void restore(const std::vector<History>& histories, const rod::Rod& rod);
+
   /// Forgets what is not needed from now on. Earlier marks end.
   void forgetTheOld();
 

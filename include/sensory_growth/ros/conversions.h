@@ -13,6 +13,7 @@
 #include <string>
 
 #include "sensory_growth/AppliedCommand.h"
+#include "sensory_growth/Checkpoint.h"
 #include "sensory_growth/LightDirection.h"
 #include "sensory_growth/OrganState.h"
 #include "sensory_growth/PointSource.h"
@@ -36,6 +37,7 @@ geometry_msgs::Pose toPose(const rod::Pose& pose);
 std_msgs::Header makeHeader(const Snapshot& snapshot, const std::string& frame);
 
 Relaxation toMessage(const simulation::OrganReport& report);
+Checkpoint toMessage(const simulation::Checkpoint& checkpoint, const Snapshot& snapshot, const std::string& frame);
 OrganState toMessage(const OrganSnapshot& organ, const Snapshot& snapshot, const std::string& frame);
 Stimuli toStimuli(const Snapshot& snapshot, const std::string& frame);
 AppliedCommand toMessage(const simulation::AppliedCommand& applied, const Snapshot& snapshot, const std::string& frame);

@@ -7,6 +7,7 @@
 
 #include "sensory_growth/ros/parameters.h"
 #include "sensory_growth/ros/reporter.h"
+#include "sensory_growth/simulation/checkpoint.h"
 #include "sensory_growth/simulation/scenario.h"
 
 namespace sensory_growth::node {
@@ -24,6 +25,10 @@ LoadedScenario loadScenario(const Parameters& parameters, const std::string& nod
 /// The same from the two texts of `sources`, which are called what the parameters call their files. Completes
 /// `sources`.
 LoadedScenario parseScenario(const Parameters& parameters, Sources sources, std::vector<std::string>& problems);
+
+/// What the checkpoint of that path was made of. `node` is the name of who goes on from it.
+LoadedScenario parseScenario(const Parameters& parameters, const std::string& node, const std::string& path,
+                             const simulation::Checkpoint& checkpoint, std::vector<std::string>& problems);
 
 /// Of this package; bags are marked with it.
 const char* version();

@@ -20,6 +20,7 @@ inline constexpr char kState[] = "state";
 inline constexpr char kStatus[] = "status";
 inline constexpr char kStimuli[] = "stimuli";
 inline constexpr char kAppliedCommands[] = "applied_commands";
+inline constexpr char kCheckpoint[] = "checkpoint";
 inline constexpr char kScenario[] = "scenario";
 inline constexpr char kProtocol[] = "protocol";
 inline constexpr char kParameters[] = "parameters";
@@ -38,6 +39,8 @@ inline constexpr char kStep[] = "step";
 inline constexpr char kSetParameter[] = "set_parameter";
 inline constexpr char kSetGravity[] = "set_gravity";
 inline constexpr char kSetRealTimeFactor[] = "set_real_time_factor";
+inline constexpr char kSaveCheckpoint[] = "save_checkpoint";
+inline constexpr char kLoadCheckpoint[] = "load_checkpoint";
 inline constexpr char kStartRecording[] = "start_recording";
 inline constexpr char kSplitRecording[] = "split_recording";
 inline constexpr char kStopRecording[] = "stop_recording";
@@ -63,6 +66,7 @@ inline constexpr char kLightMarker[] = "light_direction";
 // Loggers, children of ros.sensory_growth.
 inline constexpr char kLogSimulation[] = "sim";
 inline constexpr char kLogRos[] = "ros";
+inline constexpr char kLogCheckpoint[] = "checkpoint";
 inline constexpr char kLogRecording[] = "recording";
 
 }  // namespace sensory_growth::node::names

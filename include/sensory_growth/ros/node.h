@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "sensory_growth/Command.h"
+#include "sensory_growth/LoadCheckpoint.h"
+#include "sensory_growth/SaveCheckpoint.h"
 #include "sensory_growth/SetGravity.h"
 #include "sensory_growth/SetParameter.h"
 #include "sensory_growth/SetRealTimeFactor.h"
@@ -19,6 +21,7 @@
 #include "sensory_growth/StartRecording.h"
 #include "sensory_growth/Step.h"
 #include "sensory_growth/StopRecording.h"
+#include "sensory_growth/ros/checkpoints.h"
 #include "sensory_growth/ros/clock.h"
 #include "sensory_growth/ros/clock_listener.h"
 #include "sensory_growth/ros/diagnostics.h"
@@ -52,8 +55,7 @@ class Node {
   void logProgress() const;
 
   const Parameters parameters_;
-  const double duration_;  // growth time [s]
-  const double step_;      // ROS time [s]
+  const double step_;  // ROS time [s]
   ros::NodeHandle node_, private_node_;
 
   // A service that blocks must not keep others waiting, nor the topics: each kind has its own queue and thread.
@@ -64,6 +66,7 @@ class Node {
   Publishers publishers_;
   StimulusIntake intake_;  // before the loop, so that it hears the transforms of the first state
   SimulationLoop loop_;
+  Checkpoints checkpoints_;
   std::unique_ptr<Diagnostics> diagnostics_;
   std::unique_ptr<ClockListener> clock_listener_;
   std::vector<ros::ServiceServer> services_;

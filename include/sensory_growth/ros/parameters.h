@@ -61,6 +61,8 @@ struct Parameters {
   double recording_split_size = 0.0;            ///< another bag begins when one has grown by this [byte]; 0: never
   double recording_minimum_free_space = 1.0e9;  ///< recording stops when the disk has less [byte]
 
+  std::string checkpoint_directory;  ///< empty: saving and loading are refused
+
   double marker_rate = 20.0;  ///< [1/s of wall time]
   MarkerShape marker_style = MarkerShape::tube;
   MarkerField marker_color = MarkerField::curvature;

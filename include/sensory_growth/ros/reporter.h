@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "sensory_growth/AppliedCommand.h"
+#include "sensory_growth/Checkpoint.h"
 #include "sensory_growth/OrganState.h"
 #include "sensory_growth/Status.h"
 #include "sensory_growth/Stimuli.h"
@@ -29,10 +30,9 @@
 
 namespace sensory_growth::node {
 
-/// The texts a run started from.
+/// The texts a run started from, or those of the checkpoint that it went on from.
 struct Sources {
-  std::string node;  ///< its name, such as "/sensory_growth"
-  std::string scenario_name;
+  std::string node;        ///< its name, such as "/sensory_growth"
   std::string scenario;    ///< YAML as read
   std::string protocol;    ///< YAML as read; empty: none
   std::string parameters;  ///< YAML of the parameters in effect
@@ -40,10 +40,10 @@ struct Sources {
 };
 
 /// Anything that is published.
-using Message = std::variant<boost::shared_ptr<const Status>, boost::shared_ptr<const Stimuli>,
-                             boost::shared_ptr<const AppliedCommand>, boost::shared_ptr<const OrganState>,
-                             boost::shared_ptr<const std_msgs::String>, boost::shared_ptr<const tf2_msgs::TFMessage>,
-                             boost::shared_ptr<const visualization_msgs::MarkerArray>>;
+using Message = std::variant<
+    boost::shared_ptr<const Status>, boost::shared_ptr<const Stimuli>, boost::shared_ptr<const AppliedCommand>,
+    boost::shared_ptr<const Checkpoint>, boost::shared_ptr<const OrganState>, boost::shared_ptr<const std_msgs::String>,
+    boost::shared_ptr<const tf2_msgs::TFMessage>, boost::shared_ptr<const visualization_msgs::MarkerArray>>;
 
 class Reporter : public RunListener {
  public:
@@ -54,10 +54,14 @@ class Reporter : public RunListener {
   Reporter(const Parameters& parameters, const Sources& sources, const StimulusCounters& counters,
            const Resolve& resolve);
 
+  void onCheckpoint(const simulation::Checkpoint& checkpoint, const Snapshot& snapshot) override;
   void onState(const SnapshotPtr& snapshot) override;
   void onCommand(const simulation::AppliedCommand& command, const Snapshot& snapshot) override;
   void onStimuli(const Snapshot& snapshot) override;
   void onStatus(const RunStatus& status, const Snapshot& snapshot) override;
+
+  /// A checkpoint of the run at that state. On the thread of the run.
+  simulation::Checkpoint checkpointOf(simulation::SimulationState state) const;
 
   /// Opens a bag and writes what is needed to run the same again. On the thread of the run. `file` may be empty.
   /// Returns why it failed, or nothing.
@@ -83,7 +87,7 @@ class Reporter : public RunListener {
   };
 
   struct Topics {
-    Topic status, stimuli, applied, scenario, protocol, parameters, markers, tf, tf_static;
+    Topic status, stimuli, applied, checkpoint, scenario, protocol, parameters, markers, tf, tf_static;
     std::map<std::string, Topic> states;  // by organ
   };
 
@@ -97,7 +101,7 @@ class Reporter : public RunListener {
   void publishSources();
 
   const Parameters parameters_;
-  const Sources sources_;
+  Sources sources_;  // of the run's thread alone once there is a run
   const Topics topics_;
   std::optional<MarkerSettings> marker_settings_;  // set with the first state, constant afterwards
 
@@ -105,13 +109,14 @@ class Reporter : public RunListener {
   static Topics makeTopics(const std::vector<std::string>& organs, const Resolve& resolve);
   void send(const Topic& topic, const ros::Time& stamp, const Message& message);
   void record(const Topic& topic, const ros::Time& stamp, const Message& message);
+  void beginHistory(std::uint32_t epoch);
   void goBack(const Snapshot& snapshot);
   void keep(Message command);
   void beginBag(const Snapshot& snapshot);
   void recordState(const Snapshot& snapshot);
   void recordMarkers(const Snapshot& snapshot);
   std::vector<std::pair<Topic, Message>> sources() const;
-  std::string datedFile() const;
+  std::string datedFile(const Snapshot& snapshot) const;
 
   const FrameSettings frames_;
   const StimulusCounters& counters_;
@@ -119,7 +124,8 @@ class Reporter : public RunListener {
   // Of the run's thread alone.
   Recorder recorder_;
   std::optional<MarkerStream> recorded_markers_;
-  std::vector<Message> history_;  // commands since the last reset, as far as they are kept
+  std::optional<Message> origin_;  // the checkpoint that the epoch began with
+  std::vector<Message> history_;   // commands since it began, as far as they are kept
   bool history_is_cut_ = false;
   std::uint32_t history_epoch_ = 0;
   ros::Time last_stamp_;

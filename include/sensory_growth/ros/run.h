@@ -7,10 +7,12 @@
 #include <cstdint>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "sensory_growth/ros/snapshot.h"
 #include "sensory_growth/ros/stimulus_counters.h"
+#include "sensory_growth/simulation/checkpoint.h"
 #include "sensory_growth/simulation/simulation.h"
 
 namespace sensory_growth::node {
@@ -19,7 +21,7 @@ enum class Mode {
   paused,
   running,
   finished,  ///< the duration of the scenario is reached; step and reset still work
-  fault,     ///< a step failed; the last good state is kept and reset recovers
+  fault,     ///< a step failed; the last good state is kept; reset or a checkpoint recovers
 };
 
 inline constexpr char kFinished[] = "the duration of the scenario is reached";
@@ -36,7 +38,10 @@ class RunListener {
  public:
   virtual ~RunListener() = default;
 
-  /// A new state: the first, after a step, or after a reset.
+  /// An epoch begins with this checkpoint instead of step 0; its state is that of `snapshot` and shown next.
+  virtual void onCheckpoint(const simulation::Checkpoint& checkpoint, const Snapshot& snapshot) = 0;
+
+  /// A new state: the first, after a step, after a reset or from a checkpoint.
   virtual void onState(const SnapshotPtr& snapshot) = 0;
 
   /// A command was taken while the state of `snapshot` was current.
@@ -54,9 +59,10 @@ class Run {
   /// Gives the stamp of a new state, later than all before.
   using Stamps = std::function<ros::Time()>;
 
-  /// Shows the first state. The references must outlive the run; `epoch` counts the resets before.
+  /// Shows the first state. The references must outlive the run; `epoch` counts the resets and loads before, `origin`
+  /// is what the simulation goes on from, if it does not start at step 0.
   Run(simulation::Simulation simulation, Stamps next_stamp, StimulusCounters& counters, RunListener& listener,
-      std::uint32_t epoch = 0);
+      std::uint32_t epoch = 0, const std::optional<simulation::Checkpoint>& origin = std::nullopt);
 
   /// Takes a step and shows where it led, with the commands of the protocol that have fallen due. If it fails, the last
   /// good state stays, with the report of what went wrong, and no state is shown.
@@ -68,12 +74,19 @@ class Run {
   /// Back to step 0, which is shown as a new state.
   void reset();
 
+  /// Goes on with a simulation that was made from the checkpoint, which is shown as a new state. If `keep_stimuli`,
+  /// gravity and the stimuli in force stay.
+  void load(simulation::Simulation simulation, simulation::Checkpoint checkpoint, bool keep_stimuli);
+
+  /// To be kept in a checkpoint.
+  simulation::SimulationState state() const { return simulation_.state(); }
+
   bool finished() const { return simulation_.finished(); }
 
   SnapshotPtr snapshot() const;
 
  private:
-  void showFirstState();
+  void showFirstState(const std::optional<simulation::Checkpoint>& origin);
   void setSnapshot(const ros::Time& stamp);
   bool showApplied();
 

@@ -62,7 +62,11 @@ class SimulationLoop {
   Answer reset();
   Answer step(std::uint32_t steps);
   Answer setRealTimeFactor(double factor);
+  Answer load(simulation::Simulation simulation, const simulation::Checkpoint& checkpoint, bool keep_stimuli);
   Answer apply(const simulation::Command& command);
+
+  /// Hands the state between two steps to `take`, on the thread of the loop.
+  Answer save(const std::function<void(simulation::SimulationState)>& take);
 
   /// Runs `action` on the thread of the loop between two steps and shows the status afterwards. What `action` returns
   /// is why it failed, or nothing.
@@ -97,6 +101,8 @@ class SimulationLoop {
   void pauseNow(const Reply& reply);
   void resumeNow(const Reply& reply);
   void resetNow();
+  void loadNow(const Reply& reply, simulation::Simulation simulation, const simulation::Checkpoint& checkpoint,
+               bool keep_stimuli);
   void stepNow(const Reply& reply, std::uint32_t steps);
   simulation::AppliedCommand applyNow(const simulation::Command& command);
   bool wantsStep() { return step_request_ || (mode_ == Mode::running && clock_.isDue()); }

@@ -28,10 +28,12 @@ struct OrganSnapshot {
 };
 
 struct Snapshot {
-  ros::Time stamp;  ///< ROS time of the step; two states never share it
+  std::string scenario;  ///< its name
+  ros::Time stamp;       ///< ROS time of the step; two states never share it
   std::uint64_t step_index = 0;
-  std::uint32_t epoch = 0;                      ///< resets so far
+  std::uint32_t epoch = 0;                      ///< resets and loads so far
   double growth_time = 0.0;                     ///< [s]
+  double duration = 0.0;                        ///< of the scenario [s]; 0: it never ends
   std::uint64_t checksum = 0;                   ///< of the state (simulation/checksum.h)
   rod::Vector3 gravity = rod::Vector3::Zero();  ///< [m/s^2]
   growth::Environment environment;

@@ -10,6 +10,12 @@ namespace sensory_growth::simulation {
 /// the next one.
 class ElasticResponse {
  public:
+  /// Of an organ that has not grown.
+  ElasticResponse() = default;
+
+  /// What was learned before. Throws std::invalid_argument if it cannot have been.
+  ElasticResponse(std::vector<rod::Vector3> trend, double amplification);
+
   /// Takes two equilibria of an organ, dt [s] of growth apart and with the same elements.
   void learn(const rod::Rod& before, const rod::Rod& after, double dt);
 
@@ -18,6 +24,9 @@ class ElasticResponse {
 
   /// Whether there is a trend for every bend of the rod.
   bool knowsTrend(const rod::Rod& rod) const { return trend_.size() == rod.size(); }
+
+  /// Rate of the elastic part of each curvature [1/(m s)]; empty if there is no trend.
+  const std::vector<rod::Vector3>& trend() const { return trend_; }
 
   /// Adds to the curvature what the trend makes of it in dt [s]: a rod that was brought along by growth alone is off
   /// its equilibrium by the first order of dt, then by the second.
@@ -28,7 +37,7 @@ class ElasticResponse {
   double amplification() const { return amplification_; }
 
  private:
-  std::vector<rod::Vector3> trend_;  ///< rate of the elastic part of each curvature [1/(m s)]
+  std::vector<rod::Vector3> trend_;
   double amplification_ = 1.0;
 };
 

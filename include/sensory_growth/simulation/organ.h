@@ -12,38 +12,12 @@
 #include "sensory_growth/mechanics/energy.h"
 #include "sensory_growth/mechanics/static_equilibrium.h"
 #include "sensory_growth/rod/rod.h"
-#include "sensory_growth/simulation/elastic_response.h"
+#include "sensory_growth/simulation/organ_report.h"
+#include "sensory_growth/simulation/organ_state.h"
 #include "sensory_growth/simulation/parameters.h"
 #include "sensory_growth/simulation/scenario.h"
 
 namespace sensory_growth::simulation {
-
-/// Why a step of an organ was given up.
-enum class OrganFault {
-  none,
-  relaxation,         ///< no equilibrium, however small the part of the step
-  too_many_elements,  ///< more than kMostElements: growth outran longest_element
-  step_limits,        ///< the step limits ask for smaller parts than Stepping allows: the step is far too long
-};
-
-/// What happened in one step of one organ.
-struct OrganReport {
-  OrganFault fault = OrganFault::none;
-  mechanics::RelaxationReport relaxation;  ///< of the last relaxation
-  int substeps = 0;                        ///< parts the step was cut into
-  int retries = 0;                         ///< parts that were cut again because relaxation failed
-  int iterations = 0;                      ///< Newton iterations or time steps, of all relaxations
-  int branch_switches = 0;                 ///< unstable equilibria left, in all relaxations
-  std::size_t divisions = 0;
-
-  /// Largest differential growth [-]; above 1, tissue on one side of the organ would have to shrink.
-  double largest_differential_growth = 0.0;
-
-  bool ok() const { return fault == OrganFault::none; }
-};
-
-/// One sentence for people, with the figures.
-std::string describe(const OrganReport& report);
 
 /// One organ: it grows a little, then relaxes to equilibrium (the draft's Figure 1) or moves on for a while.
 class Organ {
@@ -70,13 +44,21 @@ class Organ {
   void begin();
 
   const OrganScenario& scenario() const { return scenario_; }
-  const rod::Rod& rod() const { return rod_; }
-  const OrganReport& report() const { return report_; }
+  const rod::Rod& rod() const { return now_.rod; }
+  const OrganReport& report() const { return now_.report; }
+
+  /// All that decides how the organ goes on, between two steps.
+  OrganState state() const;
+
+  /// Goes on from that state at growth time `time` [s], under the gravity that was set. Throws std::invalid_argument
+  /// naming what in it no organ of this scenario can have; the organ is of no use then.
+  void restore(const OrganState& state, double time);
+
   /// Of the Hessian of the organ in equilibrium [N m], measured on demand; nothing for organs that are not relaxed to
   /// one.
   std::optional<double> lowestEigenvalue() const;
 
-  mechanics::Energy energy() const { return mechanics::energy(rod_, loads_); }
+  mechanics::Energy energy() const { return mechanics::energy(now_.rod, loads_); }
 
   /// Relative elongation rate of every element as the organ stands, stress included [1/s].
   std::vector<double> growthRates() const;
@@ -85,10 +67,12 @@ class Organ {
   growth::CueFields cues(const growth::Environment& environment) const;
 
  private:
+  void takeBack();
+  void restoreParameters(const std::vector<ParameterValue>& values);
   double longestPart(const growth::Environment& environment, double time);
   OrganFault growAndRelax(double dt, const growth::Environment& environment, double time);
-  bool startsWithStep() const { return report_.substeps == 0 && !weight_changed_before_step_; }
-  const rod::Rod& beforePart() const { return startsWithStep() ? before_step_ : before_part_; }
+  bool startsWithStep() const { return now_.report.substeps == 0 && !before_step_.weight_changed; }
+  const rod::Rod& beforePart() const { return startsWithStep() ? before_step_.rod : before_part_; }
   const growth::GrowthStrain& growthStrain(double dt);
   void correctFactors(const growth::GrowthStrain& strain, double dt);
   void growOlder(const growth::GrowthStrain& strain, double dt, double share);
@@ -107,7 +91,8 @@ class Organ {
   double growth_per_second_;
   mechanics::RelaxationSettings relaxation_settings_;
   mechanics::Loads loads_;
-  rod::Rod rod_, before_step_, before_part_;
+  OrganMoment now_, before_step_;
+  rod::Rod before_part_;
   mechanics::StaticEquilibrium equilibrium_;
   mechanics::DynamicRelaxation dynamics_;
   growth::Elongation elongation_;
@@ -119,10 +104,7 @@ class Organ {
   growth::CueFields cues_;
   std::vector<rod::Vector3> drive_, new_drive_;
   std::vector<double> rates_, new_rates_;
-  ElasticResponse response_, response_before_step_;
   bool trend_is_known_ = false;  ///< for the part that is under way
-  OrganReport report_, report_before_step_;
-  bool weight_changed_ = false, weight_changed_before_step_ = false;  ///< since the last relaxation
   bool has_begun_ = false;
 };
 

@@ -28,6 +28,13 @@ class OrganSources {
   /// snapped to another equilibrium moves no further that way.
   void follow(const std::vector<Organ>& organs, double dt);
 
+  /// How fast the places move, in the order of the ids [m/s].
+  std::vector<rod::Vector3> velocities() const;
+
+  /// Goes on with such velocities, at the places of the organs. Throws std::invalid_argument if they are not finite or
+  /// not as many as there are places.
+  void restore(const std::vector<Organ>& organs, const std::vector<rod::Vector3>& velocities);
+
   /// What the organ senses: the surroundings, which all sense, and the other organs. Valid until the next call of a
   /// member or a change of `surroundings`. Organs may ask from several threads, each for itself.
   const growth::Environment& seenBy(std::size_t organ, const growth::Environment& surroundings);

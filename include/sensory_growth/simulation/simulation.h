@@ -12,6 +12,7 @@
 #include "sensory_growth/simulation/organ.h"
 #include "sensory_growth/simulation/organ_sources.h"
 #include "sensory_growth/simulation/scenario.h"
+#include "sensory_growth/simulation/simulation_state.h"
 #include "sensory_growth/simulation/workers.h"
 
 namespace sensory_growth::simulation {
@@ -30,6 +31,10 @@ class Simulation {
   /// Throws std::invalid_argument naming the organ and the fault.
   explicit Simulation(Scenario scenario, int threads = 1);
 
+  /// Goes on from what state() returned of a simulation of this scenario. Throws std::invalid_argument naming the
+  /// fault also if the state is none that the scenario can lead to.
+  Simulation(Scenario scenario, const SimulationState& state, int threads = 1);
+
   /// Advances every organ by one step, then takes the commands of the protocol that have fallen due. When an organ
   /// fails, no organ and no counter moves and the report says why; what was applied before stays in force.
   StepReport step();
@@ -39,6 +44,12 @@ class Simulation {
 
   /// Back to step 0 of the scenario and its numbers; everything applied since is forgotten.
   void reset();
+
+  /// All that the steps to come depend on, but for the scenario.
+  SimulationState state() const;
+
+  /// Takes over gravity and the stimuli that are in force in another simulation, in place of its own.
+  void takeStimuliOf(const Simulation& other);
 
   const Scenario& scenario() const { return scenario_; }
   const std::vector<Organ>& organs() const { return organs_; }
@@ -65,7 +76,10 @@ class Simulation {
   std::vector<AppliedCommand> takeApplied();
 
  private:
+  bool isDue(const TimedCommand& command) const;
   void applyDue();
+  void restore(const SimulationState& state);
+  void setGravity(const rod::Vector3& gravity);
   std::optional<std::string> take(const StimulusCommand& command);
   std::optional<std::string> take(const ParameterCommand& command);
   std::optional<std::string> take(const GravityCommand& command);

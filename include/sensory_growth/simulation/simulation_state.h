@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sensory_growth/growth/environment.h"
+#include "sensory_growth/rod/rotations.h"
+#include "sensory_growth/simulation/organ_state.h"
+
+namespace sensory_growth::simulation {
+
+/// All that decides how a simulation goes on, beside its scenario: from equal states follow equal bits.
+struct SimulationState {
+  std::uint64_t step_index = 0;
+  rod::Vector3 gravity = rod::Vector3::Zero();  ///< in force [m/s^2]
+  bool gravity_changed = false;                 ///< since the last step
+  std::vector<growth::PointSource> point_sources;
+  std::vector<growth::LightDirection> light_directions;
+  std::vector<OrganState> organs;               ///< in the order of the scenario
+  std::vector<rod::Vector3> source_velocities;  ///< of the organs that others sense (OrganSources)
+};
+
+/// The latest step that a state may be at: growth time still counts every step.
+constexpr std::uint64_t kLatestStep = std::uint64_t{1} << 50;
+
+}  // namespace sensory_growth::simulation
