@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <limits>
 #include <stdexcept>
 #include <utility>
+
+#include "sensory_growth/simulation/scenario_yaml.h"
 
 namespace sensory_growth::simulation {
 namespace {
@@ -17,7 +21,8 @@ std::vector<Organ> buildOrgans(const Scenario& scenario) {
 
 }  // namespace
 
-Simulation::Simulation(Scenario scenario, int threads) : scenario_(std::move(scenario)), workers_(threads) {
+Simulation::Simulation(Scenario scenario, int threads)
+    : scenario_(std::move(scenario)), workers_(threads), schedule_(scenario_.stepping.step) {
   const double step = scenario_.stepping.step;
   if (!(step > 0.0) || !std::isfinite(step)) throw std::invalid_argument("stepping.step must be positive and finite");
   const auto earlier = [](const TimedCommand& a, const TimedCommand& b) { return a.time < b.time; };
@@ -31,6 +36,7 @@ void Simulation::reset() {
   organs_ = buildOrgans(scenario_);
   sources_ = OrganSources(organs_);
   environment_ = {};
+  schedule_ = Schedule(scenario_.stepping.step);
   gravity_ = scenario_.gravity;
   environment_.down = gravity_.stableNormalized();
   gravity_changed_ = false;
@@ -78,7 +84,7 @@ AppliedCommand Simulation::apply(const Command& command) {
 }
 
 std::optional<std::string> Simulation::take(const StimulusCommand& command) {
-  return simulation::apply(command, environment_);
+  return schedule_.take(command, time(), environment_);
 }
 
 std::optional<std::string> Simulation::take(const ParameterCommand& command) {
@@ -101,16 +107,60 @@ std::optional<std::string> Simulation::take(const GravityCommand& command) {
   return std::nullopt;
 }
 
+std::optional<std::string> Simulation::take(const SpawnCommand& command) {
+  if (organs_.size() >= kMostOrgans) {
+    return "there are " + std::to_string(organs_.size()) + " organs already; remove one first";
+  }
+  try {
+    const OrganScenario organ = parseOrgan(command.organ, "organ", scenario_.relaxation);
+    if (find(organ.id) != organs_.end()) return "there is an organ '" + organ.id + "' already; give another id";
+    Scenario now = scenario_;
+    now.gravity = gravity_;
+    organs_.push_back(Organ(organ, now));
+  } catch (const std::exception& fault) {
+    return fault.what();
+  }
+  sources_.recount(organs_);
+  return std::nullopt;
+}
+
+std::optional<std::string> Simulation::take(const RemoveCommand& command) {
+  const auto organ = find(command.organ);
+  if (organ == organs_.end()) return "there is no organ '" + command.organ + "'";
+  organs_.erase(organ);
+  sources_.recount(organs_);
+  return std::nullopt;
+}
+
+std::vector<Organ>::iterator Simulation::find(const std::string& id) {
+  return std::find_if(organs_.begin(), organs_.end(), [&](const Organ& organ) { return organ.scenario().id == id; });
+}
+
 bool Simulation::finished() const { return scenario_.duration > 0.0 && time() >= scenario_.duration * (1.0 - 1e-12); }
 
 std::vector<AppliedCommand> Simulation::takeApplied() { return std::exchange(applied_, {}); }
 
 void Simulation::applyDue() {
-  // A command takes effect at the first step boundary that is not earlier than its time.
+  // What is due takes effect at the first step boundary that is not earlier than its time.
   const double now = time() + 1e-9 * scenario_.stepping.step;
-  while (next_in_protocol_ < scenario_.protocol.size() && scenario_.protocol[next_in_protocol_].time <= now) {
-    apply(scenario_.protocol[next_in_protocol_++].command);
+  const std::vector<TimedCommand>& protocol = scenario_.protocol;
+  while (true) {
+    const bool has_more = next_in_protocol_ < protocol.size();
+    const double asked = has_more ? protocol[next_in_protocol_].time : std::numeric_limits<double>::infinity();
+    const double switched = schedule_.next();
+    if (std::min(asked, switched) > now) return;
+    if (asked <= switched) {
+      apply(protocol[next_in_protocol_++].command);
+    } else {
+      switchNext();
+    }
   }
+}
+
+void Simulation::switchNext() {
+  const StimulusCommand command = schedule_.takeNext();
+  const auto refusal = simulation::apply(command, environment_);
+  applied_.push_back({step_index_, command, refusal.value_or("")});
 }
 
 }  // namespace sensory_growth::simulation

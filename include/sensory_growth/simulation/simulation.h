@@ -12,6 +12,7 @@
 #include "sensory_growth/simulation/organ.h"
 #include "sensory_growth/simulation/organ_sources.h"
 #include "sensory_growth/simulation/scenario.h"
+#include "sensory_growth/simulation/schedule.h"
 #include "sensory_growth/simulation/workers.h"
 
 namespace sensory_growth::simulation {
@@ -30,14 +31,15 @@ class Simulation {
   /// Throws std::invalid_argument naming the organ and the fault.
   explicit Simulation(Scenario scenario, int threads = 1);
 
-  /// Advances every organ by one step, then takes the commands of the protocol that have fallen due. When an organ
-  /// fails, no organ and no counter moves and the report says why; what was applied before stays in force.
+  /// Advances every organ by one step, then takes the commands of the protocol and switches the stimuli that have
+  /// fallen due. When an organ fails, no organ and no counter moves and the report says why; what was applied before
+  /// stays in force.
   StepReport step();
 
   /// Applies a command now, between two steps, and keeps it for takeApplied().
   AppliedCommand apply(const Command& command);
 
-  /// Back to step 0 of the scenario and its numbers; everything applied since is forgotten.
+  /// Back to step 0 of the scenario, its organs and its numbers; everything applied since is forgotten.
   void reset();
 
   const Scenario& scenario() const { return scenario_; }
@@ -48,6 +50,9 @@ class Simulation {
 
   /// What one organ senses: all that and the other organs.
   growth::Environment seenBy(std::size_t organ) const { return OrganSources(sources_).seenBy(organ, environment_); }
+
+  /// Stimuli that will switch on or off by themselves.
+  const Schedule& schedule() const { return schedule_; }
 
   /// In force, in the world frame [m/s^2].
   const rod::Vector3& gravity() const { return gravity_; }
@@ -61,7 +66,8 @@ class Simulation {
   /// True once the duration of the scenario is reached (never if it has none).
   bool finished() const;
 
-  /// Commands taken since the previous call, in order: those of the protocol and those given to apply().
+  /// Commands taken since the previous call, in order: those of the protocol, those given to apply(), and plain
+  /// additions and removals of stimuli that switched themselves.
   std::vector<AppliedCommand> takeApplied();
 
  private:
@@ -69,12 +75,17 @@ class Simulation {
   std::optional<std::string> take(const StimulusCommand& command);
   std::optional<std::string> take(const ParameterCommand& command);
   std::optional<std::string> take(const GravityCommand& command);
+  std::optional<std::string> take(const SpawnCommand& command);
+  std::optional<std::string> take(const RemoveCommand& command);
+  void switchNext();
+  std::vector<Organ>::iterator find(const std::string& id);
 
   Scenario scenario_;
   Workers workers_;
   rod::Vector3 gravity_ = rod::Vector3::Zero();
   bool gravity_changed_ = false;  ///< since the last step
   growth::Environment environment_;
+  Schedule schedule_;
   std::vector<Organ> organs_;
   OrganSources sources_;
   std::uint64_t step_index_ = 0;
