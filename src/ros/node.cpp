@@ -123,6 +123,9 @@ void Node::advertiseServices() {
                                           [this](auto& q, auto& r) { fill(loop_.apply(toCommand(q)), r); }));
   services_.push_back(serve<SetGravity>(private_node_, names::kSetGravity, control_queue_,
                                         [this](auto& q, auto& r) { fill(loop_.apply(toCommand(q)), r); }));
+  services_.push_back(
+      serve<SetRealTimeFactor>(private_node_, names::kSetRealTimeFactor, control_queue_,
+                               [this](auto& q, auto& r) { fill(loop_.setRealTimeFactor(q.factor), r); }));
   services_.push_back(serve<StartRecording>(private_node_, names::kStartRecording, control_queue_,
                                             [this](auto& q, auto& r) { startRecording(q, r); }));
   services_.push_back(serve<StopRecording>(private_node_, names::kStopRecording, control_queue_,

@@ -1,5 +1,7 @@
 #include "sensory_growth/ros/pacer.h"
 
+#include <sstream>
+
 namespace sensory_growth::node {
 namespace {
 
@@ -14,12 +16,29 @@ std::optional<Pacer::Clock::duration> periodOf(double step, double real_time_fac
 
 }  // namespace
 
-Pacer::Pacer(double step, double real_time_factor) : step_(step), period_(periodOf(step, real_time_factor)) {}
+std::optional<std::string> findFactorFault(double real_time_factor) {
+  if (real_time_factor == 0.0) return std::nullopt;
+  if (real_time_factor >= kLowestRealTimeFactor && real_time_factor <= kHighestRealTimeFactor) return std::nullopt;
+  std::ostringstream fault;
+  fault << "the real-time factor is " << real_time_factor << "; it must be 0, which is as fast as possible, or from "
+        << kLowestRealTimeFactor << " to " << kHighestRealTimeFactor;
+  return fault.str();
+}
+
+Pacer::Pacer(double step, double real_time_factor)
+    : step_(step), factor_(real_time_factor), period_(periodOf(step, real_time_factor)) {}
 
 void Pacer::start(Clock::time_point now) {
   if (period_) due_ = now + *period_;
   window_begin_ = now;
   window_steps_ = 0;
+}
+
+void Pacer::setFactor(double real_time_factor, Clock::time_point now) {
+  factor_ = real_time_factor;
+  period_ = periodOf(step_, factor_);
+  achieved_factor_ = 0.0;
+  start(now);
 }
 
 std::optional<Pacer::Clock::time_point> Pacer::due() const {

@@ -7,12 +7,11 @@
 #include <sstream>
 #include <utility>
 
+#include "sensory_growth/ros/pacer.h"
 #include "sensory_growth/simulation/spelling.h"
 
 namespace sensory_growth::node {
 namespace {
-
-constexpr double kLowestRealTimeFactor = 1e-6;
 
 enum class Need { optional, required };
 
@@ -39,7 +38,7 @@ void visit(Parameters& p, Visitor& parameter) {
   parameter.number("clock_rate", p.clock_rate, {1.0, 1e5});
   parameter.count("threads", p.threads, {0, 1024});
   parameter.number("growth_time_scale", p.growth_time_scale, {kTiny, kHuge}, Need::required);
-  parameter.number("real_time_factor", p.real_time_factor, {0.0, kHuge});
+  parameter.number("real_time_factor", p.real_time_factor, {0.0, kHighestRealTimeFactor});
   parameter.flag("start_paused", p.start_paused);
   parameter.flag("exit_when_finished", p.exit_when_finished);
   parameter.flag("progress", p.progress);

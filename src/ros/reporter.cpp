@@ -93,7 +93,7 @@ void Reporter::onStatus(const RunStatus& status, const Snapshot& snapshot) {
   message.checksum = snapshot.checksum;
   message.growth_time = snapshot.growth_time;
   message.growth_time_scale = parameters_.growth_time_scale;
-  message.real_time_factor = parameters_.real_time_factor;
+  message.real_time_factor = status.real_time_factor;
   message.achieved_real_time_factor = status.achieved_real_time_factor;
   message.overruns = status.overruns;
   message.stimuli_accepted = counters_.of(StimulusFate::accepted);

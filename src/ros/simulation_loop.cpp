@@ -54,6 +54,15 @@ Answer SimulationLoop::step(std::uint32_t steps) {
   return ask([this, steps](const Reply& reply) { stepNow(reply, steps); });
 }
 
+Answer SimulationLoop::setRealTimeFactor(double factor) {
+  return ask([this, factor](const Reply& reply) {
+    const std::optional<std::string> fault = findFactorFault(factor);
+    if (!fault) pacer_.setFactor(factor, std::chrono::steady_clock::now());
+    showStatus();
+    reply->set_value(answer(!fault, fault.value_or("applied")));
+  });
+}
+
 Answer SimulationLoop::apply(const simulation::Command& command) {
   return ask([this, command](const Reply& reply) {
     const std::string refusal = applyNow(command).refusal;
@@ -208,7 +217,7 @@ void SimulationLoop::setMode(Mode mode, const std::string& message) {
 }
 
 void SimulationLoop::showStatus() {
-  const RunStatus status{mode_, message_, pacer_.achievedFactor(), pacer_.overruns()};
+  const RunStatus status{mode_, message_, pacer_.achievedFactor(), pacer_.overruns(), pacer_.factor()};
   {
     const std::lock_guard<std::mutex> lock(status_mutex_);
     status_ = status;

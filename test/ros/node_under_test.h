@@ -22,6 +22,7 @@
 #include "sensory_growth/PointSource.h"
 #include "sensory_growth/SetGravity.h"
 #include "sensory_growth/SetParameter.h"
+#include "sensory_growth/SetRealTimeFactor.h"
 #include "sensory_growth/StartRecording.h"
 #include "sensory_growth/Status.h"
 #include "sensory_growth/Step.h"
@@ -92,6 +93,12 @@ class NodeUnderTest {
     request.acceleration.y = acceleration.y();
     request.acceleration.z = acceleration.z();
     return call<SetGravity>("set_gravity", request);
+  }
+
+  SetRealTimeFactor::Response setRealTimeFactor(double factor) {
+    SetRealTimeFactor::Request request;
+    request.factor = factor;
+    return call<SetRealTimeFactor>("set_real_time_factor", request);
   }
 
   /// Takes steps, expects it to succeed, and returns the state after the last.

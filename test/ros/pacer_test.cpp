@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace sensory_growth::node {
 namespace {
 
@@ -32,6 +34,35 @@ TEST(Pacer, WithoutAFactorStepsAreDueAtOnce) {
   EXPECT_FALSE(pacer.due());
   pacer.stepBegins(kStart + 1h);
   EXPECT_EQ(pacer.overruns(), 0u);
+}
+
+TEST(Pacer, AnotherFactorHoldsFromNowOn) {
+  Pacer pacer(1.0, 1e-6);  // the first step is due in eleven days
+  pacer.start(kStart);
+  pacer.setFactor(4.0, kStart + 1s);
+  EXPECT_EQ(pacer.factor(), 4.0);
+  EXPECT_EQ(pacer.due(), kStart + 1250ms);
+  pacer.setFactor(0.0, kStart + 2s);
+  EXPECT_FALSE(pacer.due());
+}
+
+TEST(Pacer, AnotherFactorIsMeasuredAnew) {
+  Pacer pacer(1.0, 1.0);
+  pacer.start(kStart);
+  pacer.stepEnded(kStart + 1s);
+  ASSERT_EQ(pacer.achievedFactor(), 1.0);
+  pacer.setFactor(4.0, kStart + 1s);
+  EXPECT_EQ(pacer.achievedFactor(), 0.0);
+  for (int i = 1; i <= 4; ++i) pacer.stepEnded(kStart + 1s + i * 250ms);
+  EXPECT_EQ(pacer.achievedFactor(), 4.0);
+}
+
+TEST(Pacer, AFactorIsZeroOrInRange) {
+  for (const double good : {0.0, 1e-6, 1.0, 1e12}) EXPECT_FALSE(findFactorFault(good)) << good;
+  for (const double bad :
+       {-1.0, 0.9e-6, 1.1e12, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_TRUE(findFactorFault(bad)) << bad;
+  }
 }
 
 TEST(Pacer, MeasuresTheLastSecond) {

@@ -21,6 +21,7 @@ class Services : public ::testing::Test {
   Services() {
     EXPECT_TRUE(node_.command("pause").success);
     EXPECT_TRUE(node_.command("reset").success);
+    EXPECT_TRUE(node_.setRealTimeFactor(20.0).success);
     // What was latched by the test before must not be mistaken for progress in this one.
     node_.waitForStatus("step 0", [](const Status& s) { return s.mode == Status::PAUSED && s.step_index == 0; });
   }
@@ -97,6 +98,36 @@ TEST_F(Services, FinishedAllowsStepsAndResetButNotResume) {
   EXPECT_EQ(node_.step(1).step_index, 241u);
   EXPECT_TRUE(node_.command("reset").success);
   EXPECT_TRUE(node_.command("resume").success);
+}
+
+TEST_F(Services, AnotherRealTimeFactorHoldsAtOnce) {
+  ASSERT_TRUE(node_.setRealTimeFactor(1e-6).success);  // a step in eleven days
+  ASSERT_TRUE(node_.command("resume").success);
+  const SetRealTimeFactor::Response set = node_.setRealTimeFactor(0.0);
+  ASSERT_TRUE(set.success) << set.message;
+  EXPECT_EQ(set.step_index, 0u);
+  const Status running = node_.waitForStatus("a step", [](const Status& s) { return s.step_index >= 1; });
+  EXPECT_EQ(running.real_time_factor, 0.0);
+}
+
+TEST_F(Services, WhatIsAchievedAndWhatIsMissedIsPublished) {
+  const std::uint64_t overruns = node_.waitForStatus("status", [](const Status&) { return true; }).overruns;
+  ASSERT_TRUE(node_.setRealTimeFactor(1e12).success);  // more than any machine achieves
+  ASSERT_TRUE(node_.command("resume").success);
+  node_.waitForStatus("late steps", [&](const Status& s) { return s.overruns >= overruns + 3; });
+  ASSERT_TRUE(node_.command("pause").success);
+  const Status paused = node_.waitForStatus("pause", [](const Status& s) { return s.mode == Status::PAUSED; });
+  EXPECT_GT(paused.achieved_real_time_factor, 0.0);
+  EXPECT_LT(paused.achieved_real_time_factor, 1e12);
+}
+
+TEST_F(Services, ARealTimeFactorOutOfRangeIsRefused) {
+  for (const double bad : {-1.0, 1e-7, 1e13, double{NAN}, double{INFINITY}}) {
+    const SetRealTimeFactor::Response response = node_.setRealTimeFactor(bad);
+    EXPECT_FALSE(response.success) << bad;
+    EXPECT_TRUE(contains(response.message, "must be 0")) << response.message;
+  }
+  EXPECT_EQ(node_.waitForStatus("status", [](const Status&) { return true; }).real_time_factor, 20.0);
 }
 
 TEST_F(Services, ParametersAndGravityChangeAtAStepBoundary) {

@@ -37,6 +37,7 @@ inline constexpr char kReset[] = "reset";
 inline constexpr char kStep[] = "step";
 inline constexpr char kSetParameter[] = "set_parameter";
 inline constexpr char kSetGravity[] = "set_gravity";
+inline constexpr char kSetRealTimeFactor[] = "set_real_time_factor";
 inline constexpr char kStartRecording[] = "start_recording";
 inline constexpr char kStopRecording[] = "stop_recording";
 

@@ -14,6 +14,7 @@
 #include "sensory_growth/Command.h"
 #include "sensory_growth/SetGravity.h"
 #include "sensory_growth/SetParameter.h"
+#include "sensory_growth/SetRealTimeFactor.h"
 #include "sensory_growth/StartRecording.h"
 #include "sensory_growth/Step.h"
 #include "sensory_growth/StopRecording.h"

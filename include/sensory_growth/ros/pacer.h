@@ -5,8 +5,16 @@
 #include <chrono>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 namespace sensory_growth::node {
+
+/// Limits of a real-time factor other than 0.
+inline constexpr double kLowestRealTimeFactor = 1e-6;
+inline constexpr double kHighestRealTimeFactor = 1e12;
+
+/// Why no pacer takes this factor, or nothing.
+std::optional<std::string> findFactorFault(double real_time_factor);
 
 class Pacer {
  public:
@@ -17,6 +25,12 @@ class Pacer {
 
   /// Running begins: the first step is due one period from `now`.
   void start(Clock::time_point now);
+
+  /// From `now` on steps follow each other at this factor, the first one period from `now`. What was achieved so far
+  /// says nothing about it and is forgotten.
+  void setFactor(double real_time_factor, Clock::time_point now);
+
+  double factor() const { return factor_; }
 
   /// When the next step is due; nothing means at once.
   std::optional<Clock::time_point> due() const;
@@ -39,7 +53,8 @@ class Pacer {
   void measure(Clock::time_point now);
 
   const double step_;
-  const std::optional<Clock::duration> period_;
+  double factor_;
+  std::optional<Clock::duration> period_;
   Clock::time_point due_{};
   Clock::time_point window_begin_{};
   std::uint64_t window_steps_ = 0;

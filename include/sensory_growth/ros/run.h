@@ -29,6 +29,7 @@ struct RunStatus {
   std::string message;  ///< what is wrong; empty if nothing is
   double achieved_real_time_factor = 0.0;
   std::uint64_t overruns = 0;
+  double real_time_factor = 0.0;  ///< asked for; 0: as fast as possible
 };
 
 class RunListener {

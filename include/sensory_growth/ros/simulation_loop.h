@@ -59,6 +59,7 @@ class SimulationLoop {
   Answer resume();
   Answer reset();
   Answer step(std::uint32_t steps);
+  Answer setRealTimeFactor(double factor);
   Answer apply(const simulation::Command& command);
 
   /// Runs `action` on the thread of the loop between two steps and shows the status afterwards. What `action` returns
