@@ -162,7 +162,7 @@ TEST_F(LiveParameters, TakeWhatDynparamSends) {
   EXPECT_THAT(dynparam("set /sensory_growth marker_style line"), HasSubstr("0: "));
   expectTold("marker_style", "line");
   EXPECT_THAT(dynparam("get /sensory_growth"), HasSubstr("'marker_rate': 12.5"));
-  EXPECT_THAT(dynparam("set /sensory_growth threads 2"), HasSubstr("threads"));
+  EXPECT_THAT(dynparam("set /sensory_growth threads 2"), HasSubstr("know parameter: threads"));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include "sensory_growth/simulation/checksum.h"
 #include "sensory_growth/simulation/scenario_yaml.h"
@@ -165,6 +166,7 @@ TEST(Spawning, IsBounded) {
 }
 
 TEST(RandomScenarios, StaySoundAndEqualOnAnyNumberOfThreadsWhileOrgansComeAndGo) {
+  const tbb::global_control enough_threads(tbb::global_control::max_allowed_parallelism, 8);
   constexpr int kSteps = 30;
   int changes = 0;
   for (unsigned seed = 1; seed <= 15; ++seed) {
