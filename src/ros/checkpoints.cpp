@@ -63,12 +63,6 @@ simulation::Simulation Checkpoints::resume(const std::string& path, const simula
     throw std::runtime_error(path + " has steps of " + std::to_string(step) + " s of growth; this run has " +
                              std::to_string(step_ * parameters_.growth_time_scale) + " s, and its clock counts steps");
   }
-  std::vector<std::string> organs;
-  for (const OrganSnapshot& organ : loop_.snapshot()->organs) organs.push_back(organ.id);
-  if (loaded.sources.organs != organs) {
-    throw std::runtime_error(path + " holds the organs " + join(loaded.sources.organs, ", ") + "; this run has " +
-                             join(organs, ", "));
-  }
   try {
     return simulation::Simulation(std::move(loaded.scenario), checkpoint.state, parameters_.threads);
   } catch (const std::invalid_argument& fault) {

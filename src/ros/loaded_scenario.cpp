@@ -44,10 +44,6 @@ void checkStep(const Parameters& parameters, const simulation::Scenario& scenari
   problems.push_back(text.str());
 }
 
-std::string describeEffective(const Parameters& parameters, const std::string& node) {
-  return "node: " + node + "\nversion: " + version() + "\n" + toYaml(parameters);
-}
-
 }  // namespace
 
 LoadedScenario loadScenario(const Parameters& parameters, const std::string& node, std::vector<std::string>& problems) {
@@ -93,6 +89,10 @@ LoadedScenario parseScenario(const Parameters& parameters, const std::string& no
   sources.scenario = checkpoint.scenario;
   sources.protocol = checkpoint.protocol;
   return parseScenario(named, std::move(sources), problems);
+}
+
+std::string describeEffective(const Parameters& parameters, const std::string& node) {
+  return "node: " + node + "\nversion: " + version() + "\n" + toYaml(parameters);
 }
 
 const char* version() { return SENSORY_GROWTH_VERSION; }

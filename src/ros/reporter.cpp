@@ -1,5 +1,6 @@
 #include "sensory_growth/ros/reporter.h"
 
+#include <algorithm>
 #include <ctime>
 #include <exception>
 #include <utility>
@@ -14,6 +15,12 @@ namespace {
 template <typename Content>
 boost::shared_ptr<const Content> shared(Content message) {
   return boost::make_shared<const Content>(std::move(message));
+}
+
+Message textMessage(const std::string& text) {
+  std_msgs::String message;
+  message.data = text;
+  return shared(std::move(message));
 }
 
 std::uint8_t toConstant(Mode mode) {
@@ -42,14 +49,15 @@ Reporter::Reporter(const Parameters& parameters, const Sources& sources, const S
                    const Resolve& resolve)
     : parameters_(parameters),
       sources_(sources),
-      topics_(makeTopics(sources.organs, resolve)),
+      topics_(makeTopics(resolve)),
+      resolve_(resolve),
       frames_{parameters.world_frame, parameters.frame_prefix, parameters.stations},
       counters_(counters),
       recorder_({parameters.recording_directory,
                  static_cast<std::uint64_t>(parameters.recording_split_size),
                  {parameters.recording_compression, parameters.recording_minimum_free_space, sources.node}}) {}
 
-Reporter::Topics Reporter::makeTopics(const std::vector<std::string>& organs, const Resolve& resolve) {
+Reporter::Topics Reporter::makeTopics(const Resolve& resolve) {
   Topics topics;
   topics.status = {resolve(names::kStatus), true};
   topics.stimuli = {resolve(names::kStimuli), true};
@@ -61,9 +69,6 @@ Reporter::Topics Reporter::makeTopics(const std::vector<std::string>& organs, co
   topics.markers = {resolve(names::kMarkers), true};
   topics.tf = {resolve(names::kTf), false};
   topics.tf_static = {resolve(names::kTfStatic), true};
-  for (const std::string& organ : organs) {
-    topics.states[organ] = {resolve(std::string(names::kOrgans) + "/" + organ + "/" + names::kState), true};
-  }
   return topics;
 }
 
@@ -75,20 +80,34 @@ void Reporter::onCheckpoint(const simulation::Checkpoint& checkpoint, const Snap
   beginHistory(snapshot.epoch);
   origin_ = shared(toMessage(checkpoint, snapshot, parameters_.world_frame));
   send(topics_.checkpoint, snapshot.stamp, *origin_);
-  if (marker_settings_) send(topics_.tf_static, snapshot.stamp, shared(staticTransforms(snapshot, frames_)));
+  if (first_) sendBases(snapshot);
 }
 
 void Reporter::onState(const SnapshotPtr& snapshot) {
-  if (!marker_settings_) marker_settings_ = makeMarkerSettings(parameters_, *snapshot);
-  if (snapshot->epoch != history_epoch_) beginHistory(snapshot->epoch);
-  if (last_stamp_.isZero()) publish(topics_.tf_static, shared(staticTransforms(*snapshot, frames_)));
-  if (snapshot->stamp < last_stamp_) goBack(*snapshot);
-  const bool is_new = snapshot->stamp != std::exchange(last_stamp_, snapshot->stamp);
-  for (const OrganSnapshot& organ : snapshot->organs) {
-    send(topics_.states.at(organ.id), snapshot->stamp, shared(toMessage(organ, *snapshot, parameters_.world_frame)));
+  const bool begins = !first_ || snapshot->epoch != history_epoch_;
+  if (!first_) {
+    first_ = snapshot;
+    setMarkerSettings();
   }
-  // tf2 warns about repeated stamps.
-  if (is_new) send(topics_.tf, snapshot->stamp, shared(movingTransforms(*snapshot, frames_)));
+  if (snapshot->epoch != history_epoch_) beginHistory(snapshot->epoch);
+  followOrgans(*snapshot);
+  if (snapshot->stamp < last_stamp_) {
+    goBack(*snapshot);
+  } else if (begins) {
+    sendBases(*snapshot);
+  }
+  for (const OrganSnapshot& organ : snapshot->organs) sendState(organ, *snapshot);
+  sendTransforms(*snapshot);
+  recordMarkers(*snapshot);
+}
+
+void Reporter::onOrgans(const SnapshotPtr& snapshot) {
+  const std::set<std::string> fresh = followOrgans(*snapshot);
+  sendBases(*snapshot);
+  for (const OrganSnapshot& organ : snapshot->organs) {
+    if (fresh.count(organ.id)) sendState(organ, *snapshot);
+  }
+  sendTransforms(*snapshot);
   recordMarkers(*snapshot);
 }
 
@@ -130,6 +149,13 @@ simulation::Checkpoint Reporter::checkpointOf(simulation::SimulationState state)
   return {version(), sources_.scenario, sources_.protocol, std::move(state)};
 }
 
+void Reporter::setParameters(const Parameters& parameters, const Snapshot& snapshot) {
+  parameters_ = parameters;
+  sources_.parameters = describeEffective(parameters_, sources_.node);
+  setMarkerSettings();
+  send(topics_.parameters, snapshot.stamp, textMessage(sources_.parameters));
+}
+
 std::optional<std::string> Reporter::startRecording(const std::string& file, const Snapshot& snapshot) {
   if (history_is_cut_) return kHistoryIsCut;
   if (auto refusal = recorder_.start(file.empty() ? datedFile(snapshot) : file)) return refusal;
@@ -152,6 +178,47 @@ void Reporter::publishSources() {
   for (const auto& [topic, message] : sources()) publish(topic, message);
 }
 
+MarkerSettingsPtr Reporter::markerSettings() const {
+  const std::lock_guard<std::mutex> lock(markers_mutex_);
+  return marker_settings_;
+}
+
+void Reporter::setMarkerSettings() {
+  auto settings = std::make_shared<const MarkerSettings>(makeMarkerSettings(parameters_, *first_));
+  const std::lock_guard<std::mutex> lock(markers_mutex_);
+  marker_settings_ = std::move(settings);
+}
+
+/// Opens and closes topics as organs came and went. Returns the ids of those that came.
+std::set<std::string> Reporter::followOrgans(const Snapshot& snapshot) {
+  std::set<std::string> present, fresh;
+  for (const OrganSnapshot& organ : snapshot.organs) present.insert(organ.id);
+  for (auto state = states_.begin(); state != states_.end();) {
+    if (present.count(state->first)) {
+      ++state;
+    } else {
+      close(state->second);
+      state = states_.erase(state);
+    }
+  }
+  for (const std::string& organ : present) {
+    if (states_.count(organ)) continue;
+    const Topic topic{resolve_(std::string(names::kOrgans) + "/" + organ + "/" + names::kState), true};
+    states_.emplace(organ, topic);
+    open(topic);
+    fresh.insert(organ);
+  }
+  return fresh;
+}
+
+void Reporter::sendBases(const Snapshot& snapshot) {
+  send(topics_.tf_static, snapshot.stamp, shared(staticTransforms(snapshot, frames_)));
+}
+
+void Reporter::sendState(const OrganSnapshot& organ, const Snapshot& snapshot) {
+  send(states_.at(organ.id), snapshot.stamp, shared(toMessage(organ, snapshot, parameters_.world_frame)));
+}
+
 void Reporter::send(const Topic& topic, const ros::Time& stamp, const Message& message) {
   publish(topic, message);
   record(topic, stamp, message);
@@ -168,6 +235,18 @@ void Reporter::beginHistory(std::uint32_t epoch) {
   history_.clear();
   history_is_cut_ = false;
   history_epoch_ = epoch;
+}
+
+void Reporter::sendTransforms(const Snapshot& snapshot) {
+  if (snapshot.stamp != last_stamp_) frames_sent_.clear();
+  last_stamp_ = snapshot.stamp;
+  tf2_msgs::TFMessage message = movingTransforms(snapshot, frames_);
+  const auto is_sent = [this](const geometry_msgs::TransformStamped& transform) {
+    return !frames_sent_.insert(transform.child_frame_id).second;  // tf2 warns about repeated stamps
+  };
+  auto& transforms = message.transforms;
+  transforms.erase(std::remove_if(transforms.begin(), transforms.end(), is_sent), transforms.end());
+  if (!transforms.empty()) send(topics_.tf, snapshot.stamp, shared(std::move(message)));
 }
 
 void Reporter::goBack(const Snapshot& snapshot) {
@@ -196,7 +275,7 @@ void Reporter::beginBag(const Snapshot& snapshot) {
 void Reporter::recordState(const Snapshot& snapshot) {
   record(topics_.stimuli, snapshot.stamp, shared(toStimuli(snapshot, parameters_.world_frame)));
   for (const OrganSnapshot& organ : snapshot.organs) {
-    record(topics_.states.at(organ.id), snapshot.stamp, shared(toMessage(organ, snapshot, parameters_.world_frame)));
+    record(states_.at(organ.id), snapshot.stamp, shared(toMessage(organ, snapshot, parameters_.world_frame)));
   }
   record(topics_.tf, snapshot.stamp, shared(movingTransforms(snapshot, frames_)));
   recordMarkers(snapshot);
@@ -205,20 +284,15 @@ void Reporter::recordState(const Snapshot& snapshot) {
 void Reporter::recordMarkers(const Snapshot& snapshot) {
   if (!recorder_.recording() || parameters_.recording_marker_every == 0) return;
   const bool is_first = !recorded_markers_;
-  if (is_first) recorded_markers_.emplace(*marker_settings_);
+  if (is_first) recorded_markers_.emplace();
   if (!is_first && snapshot.step_index % static_cast<std::uint64_t>(parameters_.recording_marker_every) != 0) return;
-  record(topics_.markers, snapshot.stamp, shared(recorded_markers_->next(snapshot)));
+  record(topics_.markers, snapshot.stamp, shared(recorded_markers_->next(snapshot, *markerSettings())));
 }
 
 std::vector<std::pair<Reporter::Topic, Message>> Reporter::sources() const {
-  const auto text = [](const std::string& yaml) {
-    std_msgs::String message;
-    message.data = yaml;
-    return shared(std::move(message));
-  };
-  return {{topics_.parameters, text(sources_.parameters)},
-          {topics_.scenario, text(sources_.scenario)},
-          {topics_.protocol, text(sources_.protocol)}};
+  return {{topics_.parameters, textMessage(sources_.parameters)},
+          {topics_.scenario, textMessage(sources_.scenario)},
+          {topics_.protocol, textMessage(sources_.protocol)}};
 }
 
 std::string Reporter::datedFile(const Snapshot& snapshot) const {

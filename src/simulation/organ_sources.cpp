@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 namespace sensory_growth::simulation {
 namespace {
@@ -32,6 +33,16 @@ OrganSources::OrganSources(const std::vector<Organ>& organs) {
   std::sort(sources_.begin(), sources_.end(), [](const Source& a, const Source& b) { return a.point.id < b.point.id; });
   if (!sources_.empty()) seen_.resize(organs.size());
   locate(organs);
+}
+
+void OrganSources::recount(const std::vector<Organ>& organs) {
+  OrganSources now(organs);
+  for (Source& source : now.sources_) {
+    const auto is_same = [&source](const Source& before) { return before.point.id == source.point.id; };
+    const auto before = std::find_if(sources_.begin(), sources_.end(), is_same);
+    if (before != sources_.end()) source.point.velocity = before->point.velocity;
+  }
+  *this = std::move(now);
 }
 
 void OrganSources::locate(const std::vector<Organ>& organs) {

@@ -1,5 +1,6 @@
 #include "protocol_yaml.h"
 
+#include <cmath>
 #include <initializer_list>
 #include <optional>
 #include <string>
@@ -21,6 +22,17 @@ Options<Value> named(std::initializer_list<Value> values) {
   return options;
 }
 
+StimulusTiming readTiming(YamlReader& in) {
+  const Range range = atLeast(0).upTo(kLongestWait);
+  StimulusTiming timing;
+  timing.start = in.quantity("start", dimension::time, range, timing.start);
+  timing.duration = in.quantity("duration", dimension::time, range, timing.duration);
+  timing.period = in.quantity("period", dimension::time, range, timing.period);
+  const bool is_given = std::isfinite(timing.start + timing.duration + timing.period);
+  if (const auto fault = findFault(timing); is_given && fault) in.addProblem("period", *fault);
+  return timing;
+}
+
 /// The fields of a stimulus but its id.
 StimulusCommand readStimulus(YamlReader& in, StimulusKind kind, StimulusOperation operation, const std::string& id) {
   StimulusCommand command;
@@ -31,15 +43,38 @@ StimulusCommand readStimulus(YamlReader& in, StimulusKind kind, StimulusOperatio
   const bool is_direction = kind == StimulusKind::light_direction;
   command.vector = is_direction ? in.direction("towards") : in.vector("position", dimension::length);
   command.strength = in.number("strength", anyNumber);
+  command.timing = readTiming(in);
   return command;
 }
 
-void readStimuli(YamlReader& in, std::vector<TimedCommand>& protocol) {
+/// Takes a command in the known world, or says why it would change nothing there.
+struct Refusal {
+  KnownWorld& world;
+  double boundary;  ///< growth time at which the command takes effect [s]
+
+  std::optional<std::string> operator()(const StimulusCommand& command) const {
+    return world.schedule.take(command, boundary, world.environment);
+  }
+  std::optional<std::string> operator()(const ParameterCommand& command) const { return apply(command, world.organs); }
+  std::optional<std::string> operator()(const GravityCommand& command) const { return findFault(command); }
+  std::optional<std::string> operator()(const SpawnCommand&) const { return std::nullopt; }   // no protocol has it
+  std::optional<std::string> operator()(const RemoveCommand&) const { return std::nullopt; }  // no protocol has it
+};
+
+std::optional<std::string> findRefusal(const TimedCommand& entry, KnownWorld& world) {
+  world.schedule.skipTo(entry.time, world.environment);
+  const double boundary = std::ceil(entry.time / world.step - 1e-9) * world.step;
+  return std::visit(Refusal{world, boundary}, entry.command);
+}
+
+void readStimuli(YamlReader& in, std::vector<TimedCommand>& protocol, KnownWorld* known) {
   const auto readList = [&](const std::string& key, StimulusKind kind) {
     YamlReader::Lines ids;
     in.list(key, kOptional, [&](YamlReader& stimulus) {
       const std::string id = stimulus.uniqueIdentifier("id", ids);
       protocol.push_back({0.0, readStimulus(stimulus, kind, StimulusOperation::add, id)});
+      if (!known || !stimulus.faultless()) return;
+      if (const auto refusal = findRefusal(protocol.back(), *known)) stimulus.addProblem("id", *refusal);
     });
   };
   readList("point_sources", StimulusKind::point_source);
@@ -99,17 +134,6 @@ std::optional<Verb> readVerb(YamlReader& in) {
   return in.exactlyOneOf(verbs);
 }
 
-/// Takes a command in the known world, or says why it would change nothing there.
-struct Refusal {
-  KnownWorld& world;
-
-  std::optional<std::string> operator()(const StimulusCommand& command) const {
-    return apply(command, world.environment);
-  }
-  std::optional<std::string> operator()(const ParameterCommand& command) const { return apply(command, world.organs); }
-  std::optional<std::string> operator()(const GravityCommand& command) const { return findFault(command); }
-};
-
 }  // namespace
 
 rod::Vector3 readGravity(YamlReader& in) {
@@ -118,10 +142,7 @@ rod::Vector3 readGravity(YamlReader& in) {
 }
 
 void readProtocol(YamlReader& in, std::vector<TimedCommand>& protocol, KnownWorld* known) {
-  in.section("stimuli", kOptional, [&](YamlReader& stimuli) { readStimuli(stimuli, protocol); });
-  if (known) {
-    for (const TimedCommand& stimulus : protocol) std::visit(Refusal{*known}, stimulus.command);
-  }
+  in.section("stimuli", kOptional, [&](YamlReader& stimuli) { readStimuli(stimuli, protocol, known); });
   double latest = 0.0;
   int latest_line = 0;
   in.list("protocol", kOptional, [&](YamlReader& in_entry) {
@@ -138,7 +159,7 @@ void readProtocol(YamlReader& in, std::vector<TimedCommand>& protocol, KnownWorl
                                     std::to_string(latest_line) + "; entries are in order of time");
     }
     if (known && in_entry.faultless()) {
-      if (const auto refusal = std::visit(Refusal{*known}, entry.command)) in_entry.addProblem(verb->key, *refusal);
+      if (const auto refusal = findRefusal(entry, *known)) in_entry.addProblem(verb->key, *refusal);
     }
     latest = entry.time;
     latest_line = in_entry.line("at");

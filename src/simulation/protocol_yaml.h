@@ -6,6 +6,7 @@
 
 #include "sensory_growth/growth/environment.h"
 #include "sensory_growth/simulation/scenario.h"
+#include "sensory_growth/simulation/schedule.h"
 #include "sensory_growth/simulation/yaml_reader.h"
 
 namespace sensory_growth::simulation {
@@ -14,6 +15,8 @@ namespace sensory_growth::simulation {
 struct KnownWorld {
   growth::Environment environment;
   std::vector<OrganScenario> organs;
+  Schedule schedule;
+  double step;  ///< growth time between two step boundaries [s]
 };
 
 /// The vector [m/s^2] from its direction and its size.

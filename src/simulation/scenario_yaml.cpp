@@ -138,7 +138,7 @@ Scenario readScenario(YamlReader& in) {
   YamlReader::Lines ids;
   in.list("organs", kRequired,
           [&](YamlReader& organ) { scenario.organs.push_back(readOrgan(organ, scenario.relaxation, ids)); });
-  KnownWorld world{{}, scenario.organs};
+  KnownWorld world{{}, scenario.organs, Schedule(scenario.stepping.step), scenario.stepping.step};
   readProtocol(in, scenario.protocol, &world);
   return scenario;
 }
@@ -152,10 +152,10 @@ std::vector<TimedCommand> readProtocolAlone(YamlReader& in) {
   return protocol;
 }
 
-template <typename Content>
-Content parse(const std::string& yaml, const std::string& source, Content (*read)(YamlReader&)) {
+template <typename Read>
+auto parse(const std::string& yaml, const std::string& source, const Read& read) {
   std::vector<Problem> problems;
-  Content content;
+  decltype(read(std::declval<YamlReader&>())) content;
   readYaml(yaml, problems, [&](YamlReader& in) { content = read(in); });
   if (!problems.empty()) throw ScenarioError(source, std::move(problems));
   return content;
@@ -177,6 +177,16 @@ std::string readText(const std::string& file) {
 Scenario loadScenario(const std::string& file) { return parseScenario(readText(file), file); }
 
 Scenario parseScenario(const std::string& yaml, const std::string& source) { return parse(yaml, source, readScenario); }
+
+OrganScenario parseOrgan(const std::string& yaml, const std::string& source, RelaxationMethod relaxation) {
+  if (yaml.size() > kLongestOrganText) {
+    throw ScenarioError(source, {{"", 0, "is longer than " + std::to_string(kLongestOrganText) + " bytes"}});
+  }
+  return parse(yaml, source, [relaxation](YamlReader& in) {
+    YamlReader::Lines ids;
+    return readOrgan(in, relaxation, ids);
+  });
+}
 
 std::vector<TimedCommand> loadProtocol(const std::string& file) { return parseProtocol(readText(file), file); }
 

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <limits>
 #include <stdexcept>
 #include <utility>
+
+#include "sensory_growth/simulation/scenario_yaml.h"
 
 namespace sensory_growth::simulation {
 namespace {
@@ -38,7 +42,8 @@ void checkStimuli(const SimulationState& state) {
 
 }  // namespace
 
-Simulation::Simulation(Scenario scenario, int threads) : scenario_(std::move(scenario)), workers_(threads) {
+Simulation::Simulation(Scenario scenario, int threads)
+    : scenario_(std::move(scenario)), workers_(threads), schedule_(scenario_.stepping.step) {
   const double step = scenario_.stepping.step;
   if (!(step > 0.0) || !std::isfinite(step)) throw std::invalid_argument("stepping.step must be positive and finite");
   const auto earlier = [](const TimedCommand& a, const TimedCommand& b) { return a.time < b.time; };
@@ -55,8 +60,10 @@ Simulation::Simulation(Scenario scenario, const SimulationState& state, int thre
 
 void Simulation::reset() {
   organs_ = buildOrgans(scenario_);
+  births_.clear();
   sources_ = OrganSources(organs_);
   environment_ = {};
+  schedule_ = Schedule(scenario_.stepping.step);
   gravity_ = scenario_.gravity;
   environment_.down = gravity_.stableNormalized();
   gravity_changed_ = false;
@@ -67,9 +74,15 @@ void Simulation::reset() {
 }
 
 SimulationState Simulation::state() const {
-  SimulationState state{
-      step_index_,          gravity_, gravity_changed_, environment_.point_sources, environment_.light_directions, {},
-      sources_.velocities()};
+  SimulationState state;
+  state.step_index = step_index_;
+  state.gravity = gravity_;
+  state.gravity_changed = gravity_changed_;
+  state.point_sources = environment_.point_sources;
+  state.light_directions = environment_.light_directions;
+  state.scheduled = schedule_.entries();
+  state.births = births_;
+  state.source_velocities = sources_.velocities();
   state.organs.reserve(organs_.size());
   for (const Organ& organ : organs_) state.organs.push_back(organ.state());
   return state;
@@ -80,36 +93,50 @@ void Simulation::restore(const SimulationState& state) {
   if (state.step_index > kLatestStep) throw std::invalid_argument("the step index is beyond all that can be counted");
   if (const auto fault = findFault(GravityCommand{state.gravity})) throw std::invalid_argument(*fault);
   checkStimuli(state);
-  if (state.organs.size() != organs_.size()) {
-    throw std::invalid_argument("there are " + std::to_string(state.organs.size()) + " organs instead of " +
-                                std::to_string(organs_.size()));
-  }
   step_index_ = state.step_index;
   setGravity(state.gravity);
   gravity_changed_ = state.gravity_changed;
   environment_.time = time();
   environment_.point_sources = state.point_sources;
   environment_.light_directions = state.light_directions;
-  for (std::size_t i = 0; i < organs_.size(); ++i) {
-    const std::string& id = organs_[i].scenario().id;
-    if (state.organs[i].id != id) {
-      throw std::invalid_argument("organ '" + state.organs[i].id + "' stands in place of '" + id + "'");
-    }
-    try {
-      organs_[i].restore(state.organs[i], time());
-    } catch (const std::invalid_argument& fault) {
-      throw std::invalid_argument("organ '" + id + "': " + fault.what());
-    }
-  }
+  schedule_ = Schedule(scenario_.stepping.step, state.scheduled);
+  restoreOrgans(state);
+  sources_ = OrganSources(organs_);
   sources_.restore(organs_, state.source_velocities);
-  const auto is_due = [this](const TimedCommand& command) { return isDue(command); };
+  const auto is_due = [this](const TimedCommand& command) { return isDue(command.time); };
   const auto& protocol = scenario_.protocol;
   next_in_protocol_ =
       static_cast<std::size_t>(std::partition_point(protocol.begin(), protocol.end(), is_due) - protocol.begin());
   applied_.clear();
 }
 
+void Simulation::restoreOrgans(const SimulationState& state) {
+  for (const Birth& birth : state.births) {
+    if (const auto replaced = find(birth.id); replaced != organs_.end()) organs_.erase(replaced);
+    try {
+      add(birth);
+    } catch (const std::exception& fault) {
+      throw std::invalid_argument(fault.what());
+    }
+  }
+  std::vector<Organ> organs;
+  for (const OrganState& organ_state : state.organs) {
+    try {
+      const auto organ = find(organ_state.id);
+      if (organ == organs_.end()) throw std::invalid_argument("comes from nowhere, or twice");
+      organ->restore(organ_state, time());
+      organs.push_back(std::move(*organ));
+      organs_.erase(organ);
+    } catch (const std::invalid_argument& fault) {
+      throw std::invalid_argument("organ '" + organ_state.id + "': " + fault.what());
+    }
+  }
+  organs_ = std::move(organs);
+}
+
 void Simulation::takeStimuliOf(const Simulation& other) {
+  schedule_ = other.schedule_;
+  schedule_.delay(time() - other.time());
   environment_.point_sources = other.environment_.point_sources;
   environment_.light_directions = other.environment_.light_directions;
   if (other.gravity_ != gravity_) setGravity(other.gravity_);
@@ -153,7 +180,7 @@ AppliedCommand Simulation::apply(const Command& command) {
 }
 
 std::optional<std::string> Simulation::take(const StimulusCommand& command) {
-  return simulation::apply(command, environment_);
+  return schedule_.take(command, time(), environment_);
 }
 
 std::optional<std::string> Simulation::take(const ParameterCommand& command) {
@@ -180,19 +207,72 @@ void Simulation::setGravity(const rod::Vector3& gravity) {
   for (Organ& organ : organs_) organ.setGravity(gravity_);
 }
 
+std::optional<std::string> Simulation::take(const SpawnCommand& command) {
+  if (organs_.size() >= kMostOrgans) {
+    return "there are " + std::to_string(organs_.size()) + " organs already; remove one first";
+  }
+  try {
+    add({parseOrgan(command.organ, "organ", scenario_.relaxation).id, command.organ, gravity_});
+  } catch (const std::exception& fault) {
+    return fault.what();
+  }
+  sources_.recount(organs_);
+  return std::nullopt;
+}
+
+std::optional<std::string> Simulation::take(const RemoveCommand& command) {
+  const auto organ = find(command.organ);
+  if (organ == organs_.end()) return "there is no organ '" + command.organ + "'";
+  organs_.erase(organ);
+  const auto is_gone = [&command](const Birth& birth) { return birth.id == command.organ; };
+  births_.erase(std::remove_if(births_.begin(), births_.end(), is_gone), births_.end());
+  sources_.recount(organs_);
+  return std::nullopt;
+}
+
+/// Throws std::exception saying why it cannot be.
+void Simulation::add(const Birth& birth) {
+  if (find(birth.id) != organs_.end()) {
+    throw std::invalid_argument("there is an organ '" + birth.id + "' already; give another id");
+  }
+  const OrganScenario organ = parseOrgan(birth.organ, "organ", scenario_.relaxation);
+  if (organ.id != birth.id) throw std::invalid_argument("organ '" + organ.id + "' is called '" + birth.id + "'");
+  Scenario now = scenario_;
+  now.gravity = birth.gravity;
+  organs_.push_back(Organ(organ, now));
+  births_.push_back(birth);
+}
+
+std::vector<Organ>::iterator Simulation::find(const std::string& id) {
+  return std::find_if(organs_.begin(), organs_.end(), [&](const Organ& organ) { return organ.scenario().id == id; });
+}
+
 bool Simulation::finished() const { return scenario_.duration > 0.0 && time() >= scenario_.duration * (1.0 - 1e-12); }
 
 std::vector<AppliedCommand> Simulation::takeApplied() { return std::exchange(applied_, {}); }
 
-/// A command takes effect at the first step boundary that is not earlier than its time.
-bool Simulation::isDue(const TimedCommand& command) const {
-  return command.time <= time() + 1e-9 * scenario_.stepping.step;
-}
+/// What is due takes effect at the first step boundary that is not earlier than its time.
+bool Simulation::isDue(double time_asked) const { return time_asked <= time() + 1e-9 * scenario_.stepping.step; }
 
 void Simulation::applyDue() {
-  while (next_in_protocol_ < scenario_.protocol.size() && isDue(scenario_.protocol[next_in_protocol_])) {
-    apply(scenario_.protocol[next_in_protocol_++].command);
+  const std::vector<TimedCommand>& protocol = scenario_.protocol;
+  while (true) {
+    const bool has_more = next_in_protocol_ < protocol.size();
+    const double asked = has_more ? protocol[next_in_protocol_].time : std::numeric_limits<double>::infinity();
+    const double switched = schedule_.next();
+    if (!isDue(std::min(asked, switched))) return;
+    if (asked <= switched) {
+      apply(protocol[next_in_protocol_++].command);
+    } else {
+      switchNext();
+    }
   }
+}
+
+void Simulation::switchNext() {
+  const StimulusCommand command = schedule_.takeNext();
+  const auto refusal = simulation::apply(command, environment_);
+  applied_.push_back({step_index_, command, refusal.value_or("")});
 }
 
 }  // namespace sensory_growth::simulation

@@ -132,6 +132,26 @@ void serialize(Archive& archive, growth::LightDirection& light) {
   archive(light.id, light.towards, light.strength);
 }
 
+template <typename Archive>
+void serialize(Archive& archive, simulation::StimulusTiming& timing) {
+  archive(timing.start, timing.duration, timing.period);
+}
+
+template <typename Archive>
+void serialize(Archive& archive, simulation::StimulusCommand& command) {
+  archive(command.kind, command.operation, command.id, command.vector, command.strength, command.timing);
+}
+
+template <typename Archive>
+void serialize(Archive& archive, simulation::ScheduledStimulus& scheduled) {
+  archive(scheduled.stimulus, scheduled.begin, scheduled.switches);
+}
+
+template <typename Archive>
+void serialize(Archive& archive, simulation::Birth& birth) {
+  archive(birth.id, birth.organ, birth.gravity);
+}
+
 /// An eigenvalue that was not measured is NaN.
 template <typename Archive>
 void archiveEigenvalue(Archive& archive, std::optional<double>& eigenvalue) {
@@ -145,7 +165,7 @@ template <typename Archive>
 void serialize(Archive& archive, mechanics::RelaxationReport& report) {
   archive(report.reason, report.iterations, report.residual);
   archiveEigenvalue(archive, report.lowest_eigenvalue);
-  archive(report.branch_switches, report.load_steps, report.largest_bend);
+  archive(report.worst_element, report.branch_switches, report.load_steps, report.largest_bend);
   archiveFlag(archive, report.in_time);
   archive(report.time, report.kinetic_energy);
 }
@@ -190,7 +210,8 @@ template <typename Archive>
 void serialize(Archive& archive, simulation::SimulationState& state) {
   archive(state.step_index, state.gravity);
   archiveFlag(archive, state.gravity_changed);
-  archive(state.point_sources, state.light_directions, state.organs, state.source_velocities);
+  archive(state.point_sources, state.light_directions, state.scheduled, state.organs, state.births,
+          state.source_velocities);
 }
 
 }  // namespace cereal

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 namespace sensory_growth::simulation {
@@ -54,6 +55,21 @@ const char* name(StimulusOperation operation) {
   return "?";
 }
 
+std::optional<std::string> findFault(const StimulusTiming& timing) {
+  const std::pair<const char*, double> times[] = {
+      {"start", timing.start}, {"duration", timing.duration}, {"period", timing.period}};
+  for (const auto& [name, time] : times) {
+    if (!(time >= 0.0 && time <= kLongestWait)) {
+      return std::string(name) + " " + text(time) + " s is not in [0, " + text(kLongestWait) + "] s";
+    }
+  }
+  if (timing.period == 0.0) return std::nullopt;
+  const std::string period = "period " + text(timing.period) + " s";
+  if (timing.duration == 0.0) return period + " needs a duration, for which each flash is on";
+  if (timing.duration <= timing.period) return std::nullopt;
+  return period + " is shorter than the duration of " + text(timing.duration) + " s";
+}
+
 std::optional<std::string> findFault(const StimulusCommand& command) {
   if (command.id.empty()) return "id is empty; a stimulus needs a name";
   if (command.operation == StimulusOperation::remove) return std::nullopt;
@@ -68,7 +84,7 @@ std::optional<std::string> findFault(const StimulusCommand& command) {
     return "strength " + text(command.strength) + " is not in [" + text(-kMaxStrength) + ", " + text(kMaxStrength) +
            "]";
   }
-  return std::nullopt;
+  return findFault(command.timing);
 }
 
 std::optional<std::string> apply(const StimulusCommand& command, growth::Environment& environment) {

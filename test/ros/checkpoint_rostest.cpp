@@ -177,7 +177,7 @@ TEST_F(Checkpointing, RefusalLeavesTheRunUntouched) {
       {write("cut", bytes.substr(0, bytes.size() - 100)), "is cut off"},
       {write("newer", newer), "has format 2; this version of sensory_growth reads 1, a newer one is needed"},
       {write("text", "# a text"), "is no checkpoint"},
-      {write("renamed", simulation::encode(renamed)), "holds the organs other; this run has shoot"},
+      {write("renamed", simulation::encode(renamed)), "organ 'shoot': comes from nowhere, or twice"},
       {write("slower", simulation::encode(slower)), "has steps of 120.000000 s of growth; this run has 60.000000 s"},
       {write("bent", simulation::encode(bent)), "bend 0 is none"},
       {name("absent"), "does not exist"},

@@ -30,6 +30,9 @@ LoadedScenario parseScenario(const Parameters& parameters, Sources sources, std:
 LoadedScenario parseScenario(const Parameters& parameters, const std::string& node, const std::string& path,
                              const simulation::Checkpoint& checkpoint, std::vector<std::string>& problems);
 
+/// Name, version and parameters of a node in YAML.
+std::string describeEffective(const Parameters& parameters, const std::string& node);
+
 /// Of this package; bags are marked with it.
 const char* version();
 

@@ -10,7 +10,9 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <variant>
@@ -56,12 +58,16 @@ class Reporter : public RunListener {
 
   void onCheckpoint(const simulation::Checkpoint& checkpoint, const Snapshot& snapshot) override;
   void onState(const SnapshotPtr& snapshot) override;
+  void onOrgans(const SnapshotPtr& snapshot) override;
   void onCommand(const simulation::AppliedCommand& command, const Snapshot& snapshot) override;
   void onStimuli(const Snapshot& snapshot) override;
   void onStatus(const RunStatus& status, const Snapshot& snapshot) override;
 
   /// A checkpoint of the run at that state. On the thread of the run.
   simulation::Checkpoint checkpointOf(simulation::SimulationState state) const;
+
+  /// Goes on with other parameters for markers and says so. On the thread of the run.
+  void setParameters(const Parameters& parameters, const Snapshot& snapshot);
 
   /// Opens a bag and writes what is needed to run the same again. On the thread of the run. `file` may be empty.
   /// Returns why it failed, or nothing.
@@ -88,8 +94,11 @@ class Reporter : public RunListener {
 
   struct Topics {
     Topic status, stimuli, applied, checkpoint, scenario, protocol, parameters, markers, tf, tf_static;
-    std::map<std::string, Topic> states;  // by organ
   };
+
+  /// Called before the first message on the topic of an organ, and when the organ is gone.
+  virtual void open(const Topic& topic) = 0;
+  virtual void close(const Topic& topic) = 0;
 
   /// Called on the thread of the run with every message but the markers, once.
   virtual void publish(const Topic& topic, const Message& message) = 0;
@@ -100,28 +109,38 @@ class Reporter : public RunListener {
   /// Publishes the texts that the run started from.
   void publishSources();
 
-  const Parameters parameters_;
-  Sources sources_;  // of the run's thread alone once there is a run
+  /// How markers look at present; null before the first state. From any thread.
+  MarkerSettingsPtr markerSettings() const;
+
+  Parameters parameters_;  // of the run's thread alone once there is a run
+  Sources sources_;        // the same
   const Topics topics_;
-  std::optional<MarkerSettings> marker_settings_;  // set with the first state, constant afterwards
 
  private:
-  static Topics makeTopics(const std::vector<std::string>& organs, const Resolve& resolve);
+  static Topics makeTopics(const Resolve& resolve);
+  std::set<std::string> followOrgans(const Snapshot& snapshot);
+  void setMarkerSettings();
+  void sendState(const OrganSnapshot& organ, const Snapshot& snapshot);
   void send(const Topic& topic, const ros::Time& stamp, const Message& message);
   void record(const Topic& topic, const ros::Time& stamp, const Message& message);
   void beginHistory(std::uint32_t epoch);
   void goBack(const Snapshot& snapshot);
   void keep(Message command);
+  void sendBases(const Snapshot& snapshot);
+  void sendTransforms(const Snapshot& snapshot);
   void beginBag(const Snapshot& snapshot);
   void recordState(const Snapshot& snapshot);
   void recordMarkers(const Snapshot& snapshot);
   std::vector<std::pair<Topic, Message>> sources() const;
   std::string datedFile(const Snapshot& snapshot) const;
 
+  const Resolve resolve_;
   const FrameSettings frames_;
   const StimulusCounters& counters_;
 
   // Of the run's thread alone.
+  SnapshotPtr first_;                    // state at the start
+  std::map<std::string, Topic> states_;  // by organ
   Recorder recorder_;
   std::optional<MarkerStream> recorded_markers_;
   std::optional<Message> origin_;  // the checkpoint that the epoch began with
@@ -129,6 +148,10 @@ class Reporter : public RunListener {
   bool history_is_cut_ = false;
   std::uint32_t history_epoch_ = 0;
   ros::Time last_stamp_;
+  std::set<std::string> frames_sent_;  // with that stamp
+
+  mutable std::mutex markers_mutex_;
+  MarkerSettingsPtr marker_settings_;
 };
 
 }  // namespace sensory_growth::node

@@ -2,6 +2,7 @@
 
 /// The one typed path by which a simulation changes while it runs.
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -18,6 +19,12 @@ inline constexpr char kAllOrgans[] = "all";
 /// Largest acceleration a command may hold [m/s^2]; beyond it, it is surely an error of unit or arithmetic.
 constexpr double kMaxGravity = 1e6;
 
+/// No organ is added while there are so many.
+constexpr std::size_t kMostOrgans = 256;
+
+/// Longest text of an organ to add [byte].
+constexpr std::size_t kLongestOrganText = 100000;
+
 /// Gives one number of an organ, or of all, another value.
 struct ParameterCommand {
   std::string organ;   ///< its id, or kAllOrgans
@@ -30,7 +37,17 @@ struct GravityCommand {
   rod::Vector3 acceleration = rod::Vector3::Zero();  ///< in the world frame [m/s^2]; at zero nothing is sensed
 };
 
-using Command = std::variant<StimulusCommand, ParameterCommand, GravityCommand>;
+/// Adds an organ, which begins to grow now, in equilibrium.
+struct SpawnCommand {
+  std::string organ;  ///< YAML of one entry of `organs` in a scenario
+};
+
+/// Takes an organ away; nothing of it stays.
+struct RemoveCommand {
+  std::string organ;  ///< its id
+};
+
+using Command = std::variant<StimulusCommand, ParameterCommand, GravityCommand, SpawnCommand, RemoveCommand>;
 
 /// A command with the growth time [s] from which it holds.
 struct TimedCommand {

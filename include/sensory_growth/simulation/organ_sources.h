@@ -21,6 +21,9 @@ class OrganSources {
   /// Of organs at rest.
   explicit OrganSources(const std::vector<Organ>& organs);
 
+  /// Takes note of organs that came or went. A new one is at rest, the others move on as they did.
+  void recount(const std::vector<Organ>& organs);
+
   /// Takes the places and strengths of organs that have not grown, but may stand under other loads.
   void locate(const std::vector<Organ>& organs);
 

@@ -17,6 +17,9 @@ Scenario loadScenario(const std::string& file);
 /// The same from text; `source` names it in messages.
 Scenario parseScenario(const std::string& yaml, const std::string& source);
 
+/// Reads one entry of `organs` from text. Throws as loadScenario() does.
+OrganScenario parseOrgan(const std::string& yaml, const std::string& source, RelaxationMethod relaxation);
+
 /// Reads a protocol on its own: a file whose only top-level keys besides `name` and `description` are
 /// `stimuli` and `protocol`. In order of time; the stimuli are added at time 0. Throws as loadScenario() does, but
 /// cannot tell whether what it changes, removes or sets will exist.

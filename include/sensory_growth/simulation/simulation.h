@@ -12,6 +12,7 @@
 #include "sensory_growth/simulation/organ.h"
 #include "sensory_growth/simulation/organ_sources.h"
 #include "sensory_growth/simulation/scenario.h"
+#include "sensory_growth/simulation/schedule.h"
 #include "sensory_growth/simulation/simulation_state.h"
 #include "sensory_growth/simulation/workers.h"
 
@@ -35,14 +36,15 @@ class Simulation {
   /// fault also if the state is none that the scenario can lead to.
   Simulation(Scenario scenario, const SimulationState& state, int threads = 1);
 
-  /// Advances every organ by one step, then takes the commands of the protocol that have fallen due. When an organ
-  /// fails, no organ and no counter moves and the report says why; what was applied before stays in force.
+  /// Advances every organ by one step, then takes the commands of the protocol and switches the stimuli that have
+  /// fallen due. When an organ fails, no organ and no counter moves and the report says why; what was applied before
+  /// stays in force.
   StepReport step();
 
   /// Applies a command now, between two steps, and keeps it for takeApplied().
   AppliedCommand apply(const Command& command);
 
-  /// Back to step 0 of the scenario and its numbers; everything applied since is forgotten.
+  /// Back to step 0 of the scenario, its organs and its numbers; everything applied since is forgotten.
   void reset();
 
   /// All that the steps to come depend on, but for the scenario.
@@ -60,6 +62,9 @@ class Simulation {
   /// What one organ senses: all that and the other organs.
   growth::Environment seenBy(std::size_t organ) const { return OrganSources(sources_).seenBy(organ, environment_); }
 
+  /// Stimuli that will switch on or off by themselves.
+  const Schedule& schedule() const { return schedule_; }
+
   /// In force, in the world frame [m/s^2].
   const rod::Vector3& gravity() const { return gravity_; }
 
@@ -72,24 +77,33 @@ class Simulation {
   /// True once the duration of the scenario is reached (never if it has none).
   bool finished() const;
 
-  /// Commands taken since the previous call, in order: those of the protocol and those given to apply().
+  /// Commands taken since the previous call, in order: those of the protocol, those given to apply(), and plain
+  /// additions and removals of stimuli that switched themselves.
   std::vector<AppliedCommand> takeApplied();
 
  private:
-  bool isDue(const TimedCommand& command) const;
+  bool isDue(double time_asked) const;
   void applyDue();
   void restore(const SimulationState& state);
   void setGravity(const rod::Vector3& gravity);
   std::optional<std::string> take(const StimulusCommand& command);
   std::optional<std::string> take(const ParameterCommand& command);
   std::optional<std::string> take(const GravityCommand& command);
+  std::optional<std::string> take(const SpawnCommand& command);
+  std::optional<std::string> take(const RemoveCommand& command);
+  void switchNext();
+  void add(const Birth& birth);
+  void restoreOrgans(const SimulationState& state);
+  std::vector<Organ>::iterator find(const std::string& id);
 
   Scenario scenario_;
   Workers workers_;
   rod::Vector3 gravity_ = rod::Vector3::Zero();
   bool gravity_changed_ = false;  ///< since the last step
   growth::Environment environment_;
+  Schedule schedule_;
   std::vector<Organ> organs_;
+  std::vector<Birth> births_;  ///< of the organs that the scenario does not have
   OrganSources sources_;
   std::uint64_t step_index_ = 0;
   std::size_t next_in_protocol_ = 0;
