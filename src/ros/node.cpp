@@ -77,6 +77,12 @@ Node::Node(const Parameters& parameters, LoadedScenario loaded)
       Diagnostics::Sources{[this] { return loop_.snapshot(); }, [this] { return loop_.status(); },
                            [this] { return publishers_.recordingPath(); }, loaded.sources.organs, &counters_,
                            parameters_.clock_mode == ClockMode::publish});
+  if (parameters_.interactive_markers) {
+    handles_ = std::make_unique<StimulusHandles>(
+        private_node_.resolveName(names::kStimulusHandles), makeMarkerSettings(parameters_, *loop_.snapshot()),
+        [this] { return loop_.snapshot(); },
+        [this](const auto& command, const auto& header) { intake_.receive(command, header); });
+  }
 }
 
 Node::~Node() {
@@ -163,6 +169,7 @@ void Node::startTimers() {
         node_.createWallTimer(ros::WallDuration(interval), [action](const ros::WallTimerEvent&) { action(); }));
   };
   every(1.0 / parameters_.marker_rate, [this] { publishers_.showMarkers(loop_.snapshot()); });
+  if (handles_) every(1.0 / parameters_.marker_rate, [this] { handles_->show(); });
   every(0.1, [this] { clock_.keepAlive(); });
   every(1.0, [this] { diagnostics_->update(); });
   if (parameters_.progress) every(1.0, [this] { logProgress(); });

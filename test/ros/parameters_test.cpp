@@ -82,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCase{"stations", 101, "must be from 0 to 100"}, BadCase{"stations", 2.5, "must be a whole number"},
         BadCase{"clock_mode", "sundial", "must be one of publish, wall"},
         BadCase{"clock_mode", "follow", "publish, wall"},
-        BadCase{"marker_color", 7, "must be one of curvature, growth_rate, stretch, none"},
+        BadCase{"marker_color", 7, "must be one of curvature, growth_rate, stress, stretch, age, none"},
         BadCase{"world_frame", "/map", "must not begin with a slash"}, BadCase{"world_frame", "", "is empty"},
         BadCase{"recording_compression", "zip", "must be one of none, lz4, bz2"}),
     [](const auto& tested) { return std::string(tested.param.key) + "_" + std::to_string(tested.index); });

@@ -25,6 +25,7 @@
 #include "sensory_growth/ros/signals.h"
 #include "sensory_growth/ros/simulation_loop.h"
 #include "sensory_growth/ros/stimulus_counters.h"
+#include "sensory_growth/ros/stimulus_handles.h"
 #include "sensory_growth/ros/stimulus_intake.h"
 
 namespace sensory_growth::node {
@@ -61,6 +62,7 @@ class Node {
   StimulusIntake intake_;  // before the loop, so that it hears the transforms of the first state
   SimulationLoop loop_;
   std::unique_ptr<Diagnostics> diagnostics_;
+  std::unique_ptr<StimulusHandles> handles_;  // if ~interactive_markers
   std::vector<ros::ServiceServer> services_;
   std::vector<ros::WallTimer> timers_;
   ros::AsyncSpinner topic_spinner_, control_spinner_, step_spinner_;

@@ -38,6 +38,9 @@ class StimulusIntake {
   StimulusIntake(ros::NodeHandle node, ros::NodeHandle private_node, std::string world_frame,
                  StimulusCounters& counters, Outputs outputs);
 
+  /// Takes what came by a topic, or by hand; the vector is in the frame of `header`. Nothing: its operation is unknown.
+  void receive(const std::optional<simulation::StimulusCommand>& command, const std_msgs::Header& header);
+
  private:
   /// A command whose vector is still in the frame of its message.
   struct Waiting {
@@ -46,7 +49,6 @@ class StimulusIntake {
     std::chrono::steady_clock::time_point deadline;
   };
 
-  void receive(const std::optional<simulation::StimulusCommand>& command, const std_msgs::Header& header);
   void drain();
   geometry_msgs::TransformStamped transformOf(const std_msgs::Header& header, bool is_overdue) const;
   bool toWorld(const Waiting& waiting, simulation::StimulusCommand& command, std::string& why_not) const;
