@@ -20,6 +20,8 @@ using Feedback = visualization_msgs::InteractiveMarkerFeedback;
 /// rviz says several times a second that it still drags; one that is silent for so long is gone [wall time].
 constexpr std::chrono::seconds kGone{10};
 
+constexpr std::chrono::milliseconds kHeartbeat{500};  // of wall time
+
 StimulusCommand commandOf(const growth::PointSource& lamp) {
   return {StimulusKind::point_source, StimulusOperation::change, lamp.id, lamp.position, lamp.strength};
 }
@@ -50,7 +52,11 @@ geometry_msgs::Pose besideTips(const Snapshot& snapshot, const MarkerSettings& s
 
 StimulusHandles::StimulusHandles(const std::string& topic, const MarkerSettings& settings, Latest latest,
                                  Receive receive)
-    : settings_(settings), latest_(std::move(latest)), receive_(std::move(receive)), server_(topic) {
+    : settings_(settings),
+      latest_(std::move(latest)),
+      receive_(std::move(receive)),
+      server_(topic),
+      heartbeat_(kHeartbeat) {
   makeMenus();
   new_pose_ = besideTips(*latest_(), settings_);
   server_.insert(makeNewHandle(new_pose_, settings_), [this](const auto& feedback) { onNewHandleFeedback(*feedback); });
@@ -89,6 +95,8 @@ void StimulusHandles::show() {
     Handle& handle = handles_[handleName(stimulus)];
     if (handle.asked_at != snapshot) follow(stimulus, target, handle);
   });
+  // rviz shows nothing before it has heard an update, and those that the server sends of itself stop with ROS time.
+  if (heartbeat_.due()) server_.setPose(names::kNewHandle, new_pose_);
   server_.applyChanges();
 }
 

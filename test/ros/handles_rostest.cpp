@@ -1,6 +1,5 @@
 /// Stimuli by hand: the test plays the part of rviz, which shows handles and says what the mouse does to them.
 
-#include <geometry_msgs/PointStamped.h>
 #include <gtest/gtest.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <visualization_msgs/InteractiveMarkerFeedback.h>
@@ -55,6 +54,11 @@ class Rviz {
   /// The handle, once it has been at `x`.
   InteractiveMarker waitForX(const std::string& name, double x) {
     return waitUntil(name, [x](const InteractiveMarker& handle) { return handle.pose.position.x == x; });
+  }
+
+  void waitForMove(const std::string& name) {
+    std::unique_lock<std::mutex> lock(mutex_);
+    EXPECT_TRUE(changed_.wait_for(lock, kPatience, [&] { return moves_[name] > 0; })) << "no update of " << name;
   }
 
   void waitUntilGone(const std::string& name) {
@@ -132,6 +136,22 @@ class Rviz {
   ros::Subscriber full_, update_;  // last, so that callbacks end before what they touch
 };
 
+/// The frame "table": 1 m along x, turned by 90 degrees about z.
+class Table {
+ public:
+  Table() {
+    geometry_msgs::TransformStamped table;
+    table.header.frame_id = "world";
+    table.child_frame_id = "table";
+    table.transform.translation.x = 1.0;
+    table.transform.rotation.z = table.transform.rotation.w = std::sqrt(0.5);
+    broadcaster_.sendTransform(table);
+  }
+
+ private:
+  tf2_ros::StaticTransformBroadcaster broadcaster_;
+};
+
 /// Each test begins paused at step 0, in the dark.
 class Handles : public ::testing::Test {
  protected:
@@ -160,6 +180,7 @@ class Handles : public ::testing::Test {
     return node_.waitForStatus("status", [](const Status&) { return true; }).stimuli_refused;
   }
 
+  Table table_;  // first, so that the node has long heard of it
   NodeUnderTest node_;
   ros::Publisher lamps_, lights_;
   Rviz rviz_;
@@ -295,14 +316,6 @@ TEST_F(Handles, RefuseWhatMakesNoSenseAndShowWhatIs) {
 }
 
 TEST_F(Handles, FeedbackInAnotherFrameIsTransformed) {
-  tf2_ros::StaticTransformBroadcaster broadcaster;
-  geometry_msgs::TransformStamped table;
-  table.header.frame_id = "world";
-  table.child_frame_id = "table";
-  table.transform.translation.x = 1.0;
-  table.transform.rotation.z = table.transform.rotation.w = std::sqrt(0.5);
-  broadcaster.sendTransform(table);
-
   addLamp(0.1);
   InteractiveMarkerFeedback on_table =
       rviz_.feedback("point_source/lamp", InteractiveMarkerFeedback::POSE_UPDATE, poseAt(0.5, 0.0, 0.2));
@@ -311,6 +324,11 @@ TEST_F(Handles, FeedbackInAnotherFrameIsTransformed) {
   EXPECT_NEAR(moved.vector.x, 1.0, 1e-12);
   EXPECT_NEAR(moved.vector.y, 0.5, 1e-12);
   EXPECT_NEAR(moved.vector.z, 0.2, 1e-12);
+}
+
+TEST_F(Handles, AreShownToWhoComesWhileTimeStandsStill) {
+  Rviz late(node_);
+  late.waitForMove("new");  // rviz waits for an update before it shows anything
 }
 
 TEST_F(Handles, PleaseRviz) {

@@ -12,6 +12,7 @@
 
 #include "sensory_growth/ros/markers.h"
 #include "sensory_growth/ros/snapshot.h"
+#include "sensory_growth/ros/wall_throttle.h"
 #include "sensory_growth/simulation/stimuli.h"
 
 namespace sensory_growth::node {
@@ -62,7 +63,8 @@ class StimulusHandles {
   interactive_markers::MenuHandler menu_, new_menu_;
   std::map<std::string, Handle> handles_;  // by name
   geometry_msgs::Pose new_pose_;           // of the handle that adds
-  int last_number_ = 0;                    // of a stimulus that was added
+  WallThrottle heartbeat_;
+  int last_number_ = 0;  // of a stimulus that was added
 };
 
 }  // namespace sensory_growth::node
