@@ -113,8 +113,14 @@ InteractiveMarker makeHandle(const StimulusCommand& stimulus, const geometry_msg
 
 InteractiveMarker makeNewHandle(const geometry_msgs::Pose& pose, const MarkerSettings& settings) {
   InteractiveMarker handle = makeEmptyHandle(names::kNewHandle, pose, 2.0 * settings.lamp_diameter, settings);
-  handle.description = "right-click to add a light";
   addBall(handle, settings.lamp_diameter);
+  // Not by handle.description, which rviz writes in white.
+  Marker label = makeVeil(Marker::TEXT_VIEW_FACING);
+  label.text = "right click: add";
+  label.pose.position.z = 0.9 * settings.lamp_diameter;
+  label.scale.z = 0.5 * settings.lamp_diameter;
+  label.color.a = 1.0F;
+  handle.controls.front().markers.push_back(std::move(label));
   return handle;
 }
 
