@@ -23,13 +23,14 @@ bool CommandQueue::push(Control control) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (is_closed_) return false;
   waiting_.emplace_back(std::move(control));
+  ++controls_waiting_;
   changed_.notify_one();
   return true;
 }
 
 std::vector<Command> CommandQueue::take() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  stimuli_waiting_ = 0;
+  stimuli_waiting_ = controls_waiting_ = 0;
   return std::exchange(waiting_, {});
 }
 
@@ -40,7 +41,7 @@ void CommandQueue::wait() {
 
 bool CommandQueue::waitUntil(Clock::time_point deadline) {
   std::unique_lock<std::mutex> lock(mutex_);
-  return changed_.wait_until(lock, deadline, [this] { return is_closed_ || !waiting_.empty(); });
+  return changed_.wait_until(lock, deadline, [this] { return is_closed_ || controls_waiting_ > 0; });
 }
 
 void CommandQueue::close() {
@@ -48,7 +49,7 @@ void CommandQueue::close() {
   const std::lock_guard<std::mutex> lock(mutex_);
   is_closed_ = true;
   dropped.swap(waiting_);
-  stimuli_waiting_ = 0;
+  stimuli_waiting_ = controls_waiting_ = 0;
   changed_.notify_one();
 }
 

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <sstream>
 #include <utility>
 #include <vector>
 
 #include "sensory_growth/ros/conversions.h"
+#include "sensory_growth/ros/marker_colors.h"
 #include "sensory_growth/ros/names.h"
 
 namespace sensory_growth::node {
@@ -34,7 +37,7 @@ const std_msgs::ColorRGBA kAttracting = color(1.0F, 0.75F, 0.10F);
 const std_msgs::ColorRGBA kRepelling = color(0.35F, 0.45F, 0.95F);
 const std_msgs::ColorRGBA kWall = color(0.60F, 0.75F, 0.90F, 0.25F);
 const std_msgs::ColorRGBA kTie = color(0.75F, 0.60F, 0.40F);
-const std_msgs::ColorRGBA kLabel = color(0.95F, 0.95F, 0.95F);
+const std_msgs::ColorRGBA kLabel = color(0.15F, 0.15F, 0.20F);
 
 /// What is drawn at one vertex.
 struct Ring {
@@ -47,24 +50,6 @@ rod::Pose poseAt(const rod::Rod& rod, std::size_t vertex) {
   if (vertex == 0) return rod.base;
   if (vertex == rod.size()) return rod.apex();
   return {rod.vertices[vertex].position, rod.bendFrame(vertex)};
-}
-
-double fieldAt(const OrganSnapshot& organ, std::size_t vertex, MarkerField field) {
-  const rod::Rod& rod = organ.rod;
-  const std::size_t bend = std::min(vertex, rod.size() - 1);
-  const std::size_t below = vertex == 0 ? 0 : vertex - 1;
-  const std::size_t above = std::min(vertex, rod.size() - 1);
-  switch (field) {
-    case MarkerField::curvature:
-      return rod.bends[bend].curvature.head<2>().norm();
-    case MarkerField::growth_rate:
-      return 0.5 * (organ.growth_rates[below] + organ.growth_rates[above]);
-    case MarkerField::stretch:
-      return 0.5 * (std::abs(rod.elements[below].strain.z()) + std::abs(rod.elements[above].strain.z()));
-    case MarkerField::none:
-      break;
-  }
-  return 0.0;
 }
 
 std::vector<Ring> makeRings(const OrganSnapshot& organ, const MarkerSettings& settings) {
@@ -81,16 +66,11 @@ std::vector<Ring> makeRings(const OrganSnapshot& organ, const MarkerSettings& se
   return rings;
 }
 
-std::vector<std_msgs::ColorRGBA> ringColors(const std::vector<Ring>& rings, const MarkerSettings& settings) {
-  double limit = settings.color_limit;
-  if (limit == 0.0) {
-    for (const Ring& ring : rings) limit = std::max(limit, ring.value);
-  }
+std::vector<std_msgs::ColorRGBA> ringColors(const std::vector<Ring>& rings, MarkerField field, double limit) {
   std::vector<std_msgs::ColorRGBA> colors;
   colors.reserve(rings.size());
   for (const Ring& ring : rings) {
-    const bool is_plain = settings.field == MarkerField::none;
-    colors.push_back(is_plain ? kPlainOrgan : viridis(limit > 0.0 ? ring.value / limit : 0.0));
+    colors.push_back(field == MarkerField::none ? kPlainOrgan : viridis(ring.value / limit));
   }
   return colors;
 }
@@ -161,10 +141,10 @@ Marker makeLine(Marker marker, const std::vector<Ring>& rings, const std::vector
   return marker;
 }
 
-void addOrgan(const OrganSnapshot& organ, const Snapshot& snapshot, const MarkerSettings& settings,
+void addOrgan(const OrganSnapshot& organ, double color_limit, const Snapshot& snapshot, const MarkerSettings& settings,
               MarkerArray& array) {
   const std::vector<Ring> rings = makeRings(organ, settings);
-  const std::vector<std_msgs::ColorRGBA> colors = ringColors(rings, settings);
+  const std::vector<std_msgs::ColorRGBA> colors = ringColors(rings, settings.field, color_limit);
   const std::string ns = organ.id + "/" + names::kBodyMarker;
   if (settings.shape == MarkerShape::tube) {
     array.markers.push_back(makeTube(makeMarker(snapshot, settings, ns, 0, Marker::TRIANGLE_LIST), rings, colors));
@@ -178,6 +158,54 @@ void addOrgan(const OrganSnapshot& organ, const Snapshot& snapshot, const Marker
   setScale(tip, diameter, diameter, diameter);
   tip.color = kTip;
   array.markers.push_back(std::move(tip));
+}
+
+const std_msgs::ColorRGBA& colorOf(double strength) { return strength < 0.0 ? kRepelling : kAttracting; }
+
+Marker makeLabel(const Snapshot& snapshot, const MarkerSettings& settings, const std::string& ns, int id,
+                 const std::string& text, const rod::Vector3& position, double height) {
+  Marker label = makeMarker(snapshot, settings, ns, id, Marker::TEXT_VIEW_FACING);
+  label.pose.position = toPoint(position);
+  label.scale.z = height;
+  label.color = kLabel;
+  label.text = text;
+  return label;
+}
+
+/// A glow round the tissue that the other organs sense.
+void addSource(const OrganSnapshot& organ, const Snapshot& snapshot, const MarkerSettings& settings,
+               MarkerArray& array) {
+  if (!organ.source) return;
+  Marker glow = makeMarker(snapshot, settings, organ.id + "/" + names::kSourceMarker, 0, Marker::SPHERE);
+  glow.pose.position = toPoint(organ.source->position);
+  const double diameter =
+      0.1 * settings.scene_size + 2.0 * settings.radius_scale * organ.rod.elements[0].section.radius;
+  setScale(glow, diameter, diameter, diameter);
+  glow.color = colorOf(organ.source->strength);
+  glow.color.a = 0.4F;
+  array.markers.push_back(std::move(glow));
+}
+
+/// A column in all colours, with the range of the field.
+void addLegend(double color_limit, const Snapshot& snapshot, const MarkerSettings& settings, MarkerArray& array) {
+  if (settings.field == MarkerField::none) return;
+  constexpr std::size_t kRings = 33;
+  const double height = settings.scene_size;
+  const auto above = [&](double z) -> rod::Vector3 { return settings.legend_foot + z * rod::Vector3::UnitZ(); };
+  std::vector<Ring> rings;
+  for (std::size_t i = 0; i < kRings; ++i) {
+    const double fraction = static_cast<double>(i) / (kRings - 1);
+    rings.push_back({{above(fraction * height), rod::Quaternion::Identity()}, 0.025 * height, fraction * color_limit});
+  }
+  const std::vector<std_msgs::ColorRGBA> colors = ringColors(rings, settings.field, color_limit);
+  const std::string ns = names::kLegendMarker;
+  array.markers.push_back(makeTube(makeMarker(snapshot, settings, ns, 0, Marker::TRIANGLE_LIST), rings, colors));
+  const auto write = [&](int id, const std::string& text, double z) {
+    array.markers.push_back(makeLabel(snapshot, settings, ns, id, text, above(z), 0.09 * height));
+  };
+  write(1, "0", -0.08 * height);
+  write(2, inUnit(color_limit, settings.field), 1.08 * height);
+  write(3, describe(settings.field).title, 1.2 * height);
 }
 
 /// The plane as far as the organ can reach.
@@ -225,16 +253,13 @@ void addSurroundings(const OrganSnapshot& organ, const Snapshot& snapshot, const
   }
 }
 
-const std_msgs::ColorRGBA& colorOf(double strength) { return strength < 0.0 ? kRepelling : kAttracting; }
-
-Marker makeLabel(const Snapshot& snapshot, const MarkerSettings& settings, const std::string& ns,
-                 const std::string& text, const rod::Vector3& position) {
-  Marker label = makeMarker(snapshot, settings, ns, 1, Marker::TEXT_VIEW_FACING);
-  label.pose.position = toPoint(position);
-  label.scale.z = 0.8 * settings.lamp_diameter;
-  label.color = kLabel;
-  label.text = text;
-  return label;
+/// The id, with the strength if it is not 1.
+std::string labelOf(const std::string& id, double strength) {
+  std::ostringstream text;
+  text.precision(3);
+  text << id;
+  if (strength != 1.0) text << " (" << strength << ')';
+  return text.str();
 }
 
 void addLamp(const growth::PointSource& source, const Snapshot& snapshot, const MarkerSettings& settings,
@@ -245,22 +270,38 @@ void addLamp(const growth::PointSource& source, const Snapshot& snapshot, const 
   setScale(lamp, settings.lamp_diameter, settings.lamp_diameter, settings.lamp_diameter);
   lamp.color = colorOf(source.strength);
   array.markers.push_back(std::move(lamp));
-  array.markers.push_back(makeLabel(snapshot, settings, ns, source.id,
-                                    source.position + 1.2 * settings.lamp_diameter * rod::Vector3::UnitZ()));
+  array.markers.push_back(makeLabel(snapshot, settings, ns, 1, labelOf(source.id, source.strength),
+                                    source.position + 1.2 * settings.lamp_diameter * rod::Vector3::UnitZ(),
+                                    0.8 * settings.lamp_diameter));
 }
 
 /// An arrow that comes with the light and ends before the tips.
 void addLight(const growth::LightDirection& light, const rod::Vector3& target, const Snapshot& snapshot,
               const MarkerSettings& settings, MarkerArray& array) {
   const std::string ns = std::string(names::kLightMarker) + "/" + light.id;
-  const rod::Vector3 tail = target + settings.scene_size * light.towards;
+  const rod::Vector3 tail = lightTail(light, target, settings);
   Marker arrow = makeMarker(snapshot, settings, ns, 0, Marker::ARROW);
   arrow.points = {toPoint(tail), toPoint(target + 0.4 * settings.scene_size * light.towards)};
   setScale(arrow, 0.3 * settings.lamp_diameter, 0.8 * settings.lamp_diameter, settings.lamp_diameter);
   arrow.color = colorOf(light.strength);
   array.markers.push_back(std::move(arrow));
-  array.markers.push_back(makeLabel(snapshot, settings, ns, light.id, tail));
+  array.markers.push_back(
+      makeLabel(snapshot, settings, ns, 1, labelOf(light.id, light.strength), tail, 0.8 * settings.lamp_diameter));
 }
+
+/// Left of all organs, so that they do not hide it at the start.
+rod::Vector3 legendFoot(const Snapshot& first, double scene_size) {
+  rod::Vector3 foot = rod::Vector3::Zero();
+  double left = std::numeric_limits<double>::max();
+  for (const OrganSnapshot& organ : first.organs) {
+    foot += organ.rod.base.position / static_cast<double>(first.organs.size());
+    for (const rod::Vertex& vertex : organ.rod.vertices) left = std::min(left, vertex.position.x());
+  }
+  foot.x() = left - 0.7 * scene_size;
+  return foot;
+}
+
+}  // namespace
 
 rod::Vector3 meanTip(const Snapshot& snapshot) {
   rod::Vector3 sum = rod::Vector3::Zero();
@@ -268,7 +309,10 @@ rod::Vector3 meanTip(const Snapshot& snapshot) {
   return sum / static_cast<double>(std::max<std::size_t>(snapshot.organs.size(), 1));
 }
 
-}  // namespace
+rod::Vector3 lightTail(const growth::LightDirection& light, const rod::Vector3& target,
+                       const MarkerSettings& settings) {
+  return target + settings.scene_size * light.towards;
+}
 
 MarkerSettings makeMarkerSettings(const Parameters& parameters, const Snapshot& first) {
   double longest = 0.0;
@@ -281,15 +325,19 @@ MarkerSettings makeMarkerSettings(const Parameters& parameters, const Snapshot& 
   settings.radius_scale = parameters.marker_radius_scale;
   settings.lamp_diameter = parameters.marker_lamp_diameter > 0.0 ? parameters.marker_lamp_diameter : 0.15 * longest;
   settings.scene_size = longest;
+  settings.legend_foot = legendFoot(first, longest);
   return settings;
 }
 
 MarkerArray buildMarkers(const Snapshot& snapshot, const MarkerSettings& settings) {
   MarkerArray array;
+  const double color_limit = colorLimit(snapshot, settings.field, settings.color_limit);
   for (const OrganSnapshot& organ : snapshot.organs) {
-    addOrgan(organ, snapshot, settings, array);
+    addOrgan(organ, color_limit, snapshot, settings, array);
+    addSource(organ, snapshot, settings, array);
     addSurroundings(organ, snapshot, settings, array);
   }
+  addLegend(color_limit, snapshot, settings, array);
   for (const growth::PointSource& source : snapshot.environment.point_sources) {
     addLamp(source, snapshot, settings, array);
   }
@@ -322,26 +370,6 @@ MarkerArray MarkerStream::next(const Snapshot& snapshot, const MarkerSettings& s
   epoch_ = snapshot.epoch;
   drawn_ = std::move(drawn);
   return array;
-}
-
-std_msgs::ColorRGBA viridis(double x) {
-  // Nine evenly spaced colours of matplotlib's viridis (van der Walt and Smith 2015).
-  static constexpr std::array<std::array<double, 3>, 9> kColors = {{{0.267, 0.005, 0.329},
-                                                                    {0.279, 0.175, 0.483},
-                                                                    {0.230, 0.322, 0.546},
-                                                                    {0.173, 0.449, 0.558},
-                                                                    {0.128, 0.567, 0.551},
-                                                                    {0.158, 0.684, 0.502},
-                                                                    {0.369, 0.789, 0.383},
-                                                                    {0.678, 0.864, 0.190},
-                                                                    {0.993, 0.906, 0.144}}};
-  const double position = std::clamp(x, 0.0, 1.0) * (kColors.size() - 1);
-  const std::size_t i = std::min<std::size_t>(static_cast<std::size_t>(position), kColors.size() - 2);
-  const double f = position - static_cast<double>(i);
-  const auto channel = [&](std::size_t c) {
-    return static_cast<float>((1.0 - f) * kColors[i][c] + f * kColors[i + 1][c]);
-  };
-  return color(channel(0), channel(1), channel(2));
 }
 
 }  // namespace sensory_growth::node

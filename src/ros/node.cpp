@@ -74,6 +74,12 @@ Node::Node(const Parameters& parameters, LoadedScenario loaded)
       Diagnostics::Sources{[this] { return loop_.snapshot(); }, [this] { return loop_.status(); },
                            [this] { return publishers_.recordingPath(); },
                            [this] { return publishers_.recordingFailure(); }, &counters_, parameters_.clock_mode});
+  if (parameters_.interactive_markers) {
+    handles_ = std::make_unique<StimulusHandles>(
+        private_node_.resolveName(names::kStimulusHandles), makeMarkerSettings(parameters_, *loop_.snapshot()),
+        [this] { return loop_.snapshot(); },
+        [this](const auto& command, const auto& header) { intake_.receive(command, header); });
+  }
 }
 
 Node::~Node() {
@@ -191,6 +197,7 @@ void Node::startTimers() {
     timers_.push_back(node_.createWallTimer(ros::WallTimerOptions(
         ros::WallDuration(interval), [action](const ros::WallTimerEvent&) { action(); }, queue)));
   };
+  if (handles_) every(1.0 / parameters_.marker_rate, [this] { handles_->show(); });
   every(0.1, [this] { clock_.keepAlive(); });
   every(
       1.0, [this] { diagnostics_->update(); }, &health_queue_);

@@ -68,11 +68,14 @@ void visit(Parameters& p, Visitor& parameter) {
   parameter.choice("marker_color", p.marker_color,
                    {{"curvature", MarkerField::curvature},
                     {"growth_rate", MarkerField::growth_rate},
+                    {"stress", MarkerField::stress},
                     {"stretch", MarkerField::stretch},
+                    {"age", MarkerField::age},
                     {"none", MarkerField::none}},
                    Need::live);
   parameter.number("marker_color_limit", p.marker_color_limit, {0.0, kHuge}, Need::live);
   parameter.number("marker_radius_scale", p.marker_radius_scale, {1e-3, 1e3}, Need::live);
+  parameter.flag("interactive_markers", p.interactive_markers);
   parameter.number("marker_lamp_diameter", p.marker_lamp_diameter, {0.0, 1e3}, Need::live);
 }
 

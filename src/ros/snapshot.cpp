@@ -22,7 +22,8 @@ SnapshotPtr takeSnapshot(const simulation::Simulation& simulation, const ros::Ti
   for (std::size_t i = 0; i < simulation.organs().size(); ++i) {
     const simulation::Organ& organ = simulation.organs()[i];
     snapshot->organs.push_back({organ.scenario().id, organ.rod(), organ.growthRates(), organ.cues(simulation.seenBy(i)),
-                                organ.energy(), organ.scenario().loads.surroundings, organ.report()});
+                                organ.energy(), organ.scenario().loads.surroundings, organ.report(),
+                                simulation::sourceOf(organ)});
     snapshot->organs.back().report.relaxation.lowest_eigenvalue = organ.lowestEigenvalue();
   }
   return snapshot;

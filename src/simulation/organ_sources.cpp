@@ -20,6 +20,18 @@ rod::Vector3 placeOf(const rod::Rod& rod, double label) {
 
 }  // namespace
 
+std::optional<growth::PointSource> sourceOf(const Organ& organ) {
+  const OrganScenario& scenario = organ.scenario();
+  std::optional<growth::PointSource> source;
+  if (scenario.source) {
+    source.emplace();
+    source->id = scenario.id;
+    source->position = placeOf(organ.rod(), scenario.source->label);
+    source->strength = scenario.source->strength;
+  }
+  return source;
+}
+
 void OrganSources::Source::locate(const std::vector<Organ>& organs) {
   const OrganScenario& scenario = organs[organ].scenario();
   point.position = placeOf(organs[organ].rod(), scenario.source->label);

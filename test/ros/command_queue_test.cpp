@@ -70,6 +70,17 @@ TEST(CommandQueue, BoundsTheStimuliThatWait) {
   EXPECT_TRUE(queue.push(lamp("c", StimulusOperation::add, 0.0)));
 }
 
+TEST(CommandQueue, OnlyAControlEndsTheWaitForADeadline) {
+  CommandQueue queue(10);
+  const auto past = CommandQueue::Clock::now();
+  EXPECT_TRUE(queue.push(lamp("a", StimulusOperation::add, 0.0)));
+  EXPECT_FALSE(queue.waitUntil(past));  // a stimulus waits for the step
+  EXPECT_TRUE(queue.push(Control([] {})));
+  EXPECT_TRUE(queue.waitUntil(past + std::chrono::hours(1)));
+  EXPECT_EQ(queue.take().size(), 2u);  // which takes along what came before it
+  EXPECT_FALSE(queue.waitUntil(past));
+}
+
 TEST(CommandQueue, WakesWhoWaitsWhenClosedAndTakesNothingMore) {
   CommandQueue queue(2);
   std::thread waiting([&] { queue.wait(); });

@@ -8,6 +8,7 @@
 
 #include "ros/marker_lint.h"
 #include "ros/snapshots.h"
+#include "sensory_growth/ros/marker_colors.h"
 
 namespace sensory_growth::node {
 namespace {
@@ -42,19 +43,41 @@ const Marker& find(const MarkerArray& array, const std::string& ns, int id = 0) 
 
 TEST(Markers, PleaseRviz) {
   for (const MarkerShape shape : {MarkerShape::tube, MarkerShape::line}) {
-    for (const MarkerField field :
-         {MarkerField::curvature, MarkerField::growth_rate, MarkerField::stretch, MarkerField::none}) {
+    for (const MarkerField field : {MarkerField::curvature, MarkerField::growth_rate, MarkerField::stress,
+                                    MarkerField::stretch, MarkerField::age, MarkerField::none}) {
       EXPECT_THAT(testing::lint(buildMarkers(*lit(), settingsOf(shape, field))), IsEmpty());
     }
   }
 }
 
 TEST(Markers, LintFindsWhatRvizRefuses) {
-  MarkerArray array = buildMarkers(*lit(), settingsOf(MarkerShape::line));
-  array.markers[0].colors.pop_back();
-  array.markers[1].scale.y = 0.0;
-  array.markers.push_back(array.markers[1]);
-  EXPECT_THAT(testing::lint(array), SizeIs(4));  // colours, scale, the same once more, and twice in one array
+  const auto faults_after = [](const auto& spoil) {
+    MarkerArray array = buildMarkers(*lit(), settingsOf(MarkerShape::line));
+    spoil(array);
+    return testing::lint(array);
+  };
+  Marker delete_all;
+  delete_all.header.frame_id = "world";
+  delete_all.header.stamp = ros::Time(1);
+  delete_all.action = Marker::DELETEALL;
+  const auto line = [](MarkerArray& array) -> Marker& { return array.markers[0]; };
+  const auto tip = [](MarkerArray& array) -> Marker& { return array.markers[1]; };
+  const auto label = [](MarkerArray& array) -> Marker& { return array.markers.back(); };
+  EXPECT_THAT(faults_after([&](auto& a) { line(a).colors.pop_back(); }), SizeIs(1));
+  EXPECT_THAT(faults_after([&](auto& a) { line(a).colors[1].g = NAN; }), SizeIs(1));
+  EXPECT_THAT(faults_after([&](auto& a) { line(a).points[1].x = NAN; }), SizeIs(1));
+  EXPECT_THAT(faults_after([&](auto& a) { line(a).points.resize(1), line(a).colors.resize(1); }), SizeIs(1));
+  EXPECT_THAT(faults_after([&](auto& a) { line(a).points.resize(16385), line(a).colors.clear(); }), SizeIs(1));
+  EXPECT_THAT(faults_after([&](auto& a) { tip(a).scale.y = 0.0; }), SizeIs(1));
+  EXPECT_THAT(faults_after([&](auto& a) { tip(a).color.a = 0.0F; }), SizeIs(1));
+  EXPECT_THAT(faults_after([&](auto& a) { tip(a).pose.orientation.w *= 2.0; }), SizeIs(1));
+  EXPECT_THAT(faults_after([&](auto& a) { tip(a).lifetime = ros::Duration(1.0); }), SizeIs(1));
+  EXPECT_THAT(faults_after([&](auto& a) { tip(a).header.frame_id = "/world"; }), SizeIs(1));
+  EXPECT_THAT(faults_after([&](auto& a) { tip(a).header.stamp = ros::Time(); }), SizeIs(1));
+  EXPECT_THAT(faults_after([&](auto& a) { label(a).text = " "; }), SizeIs(1));
+  EXPECT_THAT(faults_after([&](auto& a) { a.markers.push_back(tip(a)); }), SizeIs(1));
+  EXPECT_THAT(faults_after([&](auto& a) { a.markers.push_back(delete_all); }), SizeIs(1));
+  EXPECT_THAT(faults_after([&](auto& a) { a.markers.insert(a.markers.begin(), delete_all); }), IsEmpty());
 }
 
 TEST(Markers, TubeIsAClosedSurfaceThatFacesOutwards) {
@@ -148,6 +171,83 @@ TEST(MarkerStream, DeletesWhatIsGoneAndStartsAfreshAfterAReset) {
 
   snapshot->epoch = 1;
   EXPECT_EQ(stream.next(*snapshot, settings).markers.front().action, Marker::DELETEALL);
+}
+
+/// Two straight organs, one of which grows.
+std::shared_ptr<Snapshot> pair() {
+  auto snapshot = lit();
+  snapshot->organs.push_back(testing::straightOrgan("grass"));
+  snapshot->organs[1].growth_rates.assign(4, 0.0);
+  return snapshot;
+}
+
+TEST(MarkerColors, AreOfOneScaleForAllOrgans) {
+  const MarkerSettings settings = settingsOf(MarkerShape::line, MarkerField::growth_rate);
+  const MarkerArray array = buildMarkers(*pair(), settings);
+  EXPECT_EQ(find(array, "grass/body").colors.back(), viridis(0.0));
+  // The fastest grows by 4e-6 1/s, which is 1.44 %/h.
+  const double limit = 0.02 / 3600.0;
+  EXPECT_EQ(find(array, "stem/body").colors.back(), viridis(4e-6 / limit));
+  EXPECT_EQ(find(array, "legend", 2).text, "2 %/h");
+  EXPECT_EQ(find(array, "legend", 3).text, "growth rate");
+}
+
+TEST(MarkerColors, FollowAFixedLimitAndSaturate) {
+  MarkerSettings settings = settingsOf(MarkerShape::line, MarkerField::growth_rate);
+  settings.color_limit = 2e-6;
+  const MarkerArray array = buildMarkers(*pair(), settings);
+  EXPECT_EQ(find(array, "stem/body").colors.back(), viridis(1.0));
+  EXPECT_EQ(find(array, "legend", 2).text, "0.72 %/h");
+}
+
+TEST(MarkerColors, ShowStressAndAge) {
+  auto snapshot = lit();
+  rod::Rod& rod = snapshot->organs[0].rod;
+  rod.bends[2].curvature = {0.0, 30.0, 0.0};
+  rod.elements[1].age = rod.elements[2].age = 7200.0;
+  // Navier: E R kappa.
+  EXPECT_NEAR(fieldAt(snapshot->organs[0], 2, MarkerField::stress), 1e7 * 1e-3 * 30.0, 1e-6);
+  EXPECT_NEAR(fieldAt(snapshot->organs[0], 1, MarkerField::stress), 0.0, 1e-6);
+  EXPECT_EQ(fieldAt(snapshot->organs[0], 2, MarkerField::age), 7200.0);
+  const auto legend = [&](MarkerField field) {
+    return find(buildMarkers(*snapshot, settingsOf(MarkerShape::tube, field)), "legend", 2).text;
+  };
+  EXPECT_EQ(legend(MarkerField::stress), "500 kPa");
+  EXPECT_EQ(legend(MarkerField::age), "2 h");
+}
+
+TEST(MarkerColors, AStraightOrganIsNotColouredByRounding) {
+  auto snapshot = lit();
+  snapshot->organs[0].rod.bends[1].curvature = {1e-15, 0.0, 0.0};
+  const MarkerArray array = buildMarkers(*snapshot, settingsOf(MarkerShape::line));
+  EXPECT_EQ(find(array, "legend", 2).text, "1 1/m");
+  for (const auto& color : find(array, "stem/body").colors) EXPECT_NEAR(color.g, viridis(0.0).g, 1e-6);
+}
+
+TEST(MarkerColors, LegendRangesOverTheMapAndStandsBesideTheOrgans) {
+  const MarkerArray array = buildMarkers(*lit(), settingsOf(MarkerShape::tube));
+  const Marker& column = find(array, "legend");
+  EXPECT_EQ(column.colors.front(), viridis(0.0));
+  EXPECT_EQ(column.colors.back(), viridis(1.0));
+  for (const auto& point : column.points) EXPECT_LT(point.x, 0.98);  // the organ stands at 1
+  const MarkerArray plain = buildMarkers(*lit(), settingsOf(MarkerShape::tube, MarkerField::none));
+  for (const Marker& marker : plain.markers) EXPECT_NE(marker.ns, "legend");
+}
+
+TEST(MarkerColors, RoundUpTo125) {
+  for (const auto& [x, up] : {std::pair{1.0, 1.0}, {1.01, 2.0}, {2.0, 2.0}, {0.03, 0.05}, {7.0, 10.0}, {500.0, 500.0}})
+    EXPECT_NEAR(roundUp(x), up, 1e-12 * up) << x;
+}
+
+TEST(Markers, AGlowShowsWhichTissueIsASource) {
+  auto snapshot = lit();
+  snapshot->organs[0].source = growth::PointSource{"stem", {1.0, 2.0, 3.03}, -1.0, {}};
+  const MarkerArray array = buildMarkers(*snapshot, settingsOf(MarkerShape::tube));
+  const Marker& glow = find(array, "stem/source");
+  EXPECT_EQ(glow.pose.position.z, 3.03);
+  EXPECT_LT(glow.color.a, 0.5F);
+  EXPECT_GT(glow.color.b, glow.color.r);  // blue repels
+  EXPECT_THAT(testing::lint(array), IsEmpty());
 }
 
 TEST(Viridis, GrowsLighter) {

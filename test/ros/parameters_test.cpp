@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCase{"reset_time", "sometimes", "must be one of keep_time, rewind"},
         BadCase{"on_backward_jump", "panic", "must be one of reset, ignore"},
         BadCase{"recording_split_size", 1000, "is below 1e6"}, BadCase{"recording_split_size", -1, "must be from 0"},
-        BadCase{"marker_color", 7, "must be one of curvature, growth_rate, stretch, none"},
+        BadCase{"marker_color", 7, "must be one of curvature, growth_rate, stress, stretch, age, none"},
         BadCase{"world_frame", "/map", "must not begin with a slash"}, BadCase{"world_frame", "", "is empty"},
         BadCase{"recording_compression", "zip", "must be one of none, lz4, bz2"}),
     [](const auto& tested) { return std::string(tested.param.key) + "_" + std::to_string(tested.index); });

@@ -271,8 +271,9 @@ TEST_F(Bytes, OfStatesThatCannotBeAreRefusedByName) {
   } cases[] = {
       {"beyond all that can be counted", [](SimulationState& s) { s.step_index = ~std::uint64_t{0}; }},
       {"not finite", [](SimulationState& s) { s.gravity.x() = NAN; }},
-      {"2 organs instead of 3", [](SimulationState& s) { s.organs.pop_back(); }},
-      {"organ 'other' stands in place of", [](SimulationState& s) { s.organs[1].id = "other"; }},
+      {"organ 'other': comes from nowhere", [](SimulationState& s) { s.organs[1].id = "other"; }},
+      {"comes from nowhere, or twice", [](SimulationState& s) { s.organs[1].id = s.organs[0].id; }},
+      {"is required", [](SimulationState& s) { s.births.push_back({"other", "id: other", {}}); }},
       {"stimulus 'lamp': strength", [](SimulationState& s) { s.point_sources[0].strength = 1e9; }},
       {"moves on its own", [](SimulationState& s) { s.point_sources[0].velocity.x() = 1.0; }},
       {"more than 256 stimuli", [](SimulationState& s) { s.point_sources.resize(257, s.point_sources[0]); }},

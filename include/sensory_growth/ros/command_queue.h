@@ -39,7 +39,8 @@ class CommandQueue {
   /// Blocks until a command waits or the queue is closed.
   void wait();
 
-  /// The same, but not longer than until `deadline`; true if a command waits or the queue is closed.
+  /// Blocks until `deadline`, unless a control waits or the queue is closed; true if so. Stimuli wait for the deadline:
+  /// they make no difference before the step that is due then, and of many for one id only the last is left.
   bool waitUntil(Clock::time_point deadline);
 
   /// From now on nothing is taken in. Commands that still wait are dropped.
@@ -54,7 +55,7 @@ class CommandQueue {
   mutable std::mutex mutex_;  // guards what follows
   std::condition_variable changed_;
   std::vector<Command> waiting_;
-  std::size_t stimuli_waiting_ = 0;
+  std::size_t stimuli_waiting_ = 0, controls_waiting_ = 0;
   bool is_closed_ = false;
 };
 

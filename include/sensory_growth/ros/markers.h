@@ -20,16 +20,23 @@ struct MarkerSettings {
   std::string frame = "world";
   MarkerShape shape = MarkerShape::tube;
   MarkerField field = MarkerField::curvature;
-  double color_limit = 0.0;    ///< value of the brightest colour [SI]; 0: the largest of the organ at present
+  double color_limit = 0.0;    ///< value of the brightest colour [SI]; 0: the largest at present, rounded up
   double radius_scale = 1.0;   ///< of organs [-]
   double lamp_diameter = 0.0;  ///< [m]
   double scene_size = 0.0;     ///< of the longest organ at the start: light arrows begin so far from the tips [m]
+  rod::Vector3 legend_foot = rod::Vector3::Zero();  ///< of the colour scale, which is scene_size high [m]
 };
 
 using MarkerSettingsPtr = std::shared_ptr<const MarkerSettings>;
 
 /// Settings that fit the organs of `first`, the state at the start.
 MarkerSettings makeMarkerSettings(const Parameters& parameters, const Snapshot& first);
+
+/// Where the tips are on average: lights shine towards it [m].
+rod::Vector3 meanTip(const Snapshot& snapshot);
+
+/// Where the arrow of a light that shines on `target` begins [m].
+rod::Vector3 lightTail(const growth::LightDirection& light, const rod::Vector3& target, const MarkerSettings& settings);
 
 /// Everything there is to see, all with action ADD; no namespace and id twice.
 visualization_msgs::MarkerArray buildMarkers(const Snapshot& snapshot, const MarkerSettings& settings);
@@ -43,8 +50,5 @@ class MarkerStream {
   std::optional<std::uint32_t> epoch_;
   std::set<std::pair<std::string, int>> drawn_;
 };
-
-/// A colour of the viridis map, whose lightness rises evenly; x is clamped to [0, 1].
-std_msgs::ColorRGBA viridis(double x);
 
 }  // namespace sensory_growth::node

@@ -14,6 +14,9 @@ inline constexpr char kLightDirection[] = "light_direction";
 inline constexpr char kClickedPoint[] = "clicked_point";
 inline constexpr char kSun[] = "sun";
 
+// Private, both ways: stimulus_handles/update, stimulus_handles/update_full, stimulus_handles/feedback.
+inline constexpr char kStimulusHandles[] = "stimulus_handles";
+
 // Private topics out.
 inline constexpr char kOrgans[] = "organs";  // organs/<id>/state
 inline constexpr char kState[] = "state";
@@ -59,6 +62,11 @@ inline constexpr char kStopRecording[] = "stop_recording";
 inline constexpr char kClickedLamp[] = "clicked";
 inline constexpr char kSunLight[] = "sun";
 
+// Handles: that of a stimulus is called <layer>/<id> like its marker. Ids of stimuli that menus add, with a number.
+inline constexpr char kNewHandle[] = "new";
+inline constexpr char kNewLamp[] = "lamp_";
+inline constexpr char kNewLight[] = "light_";
+
 // Frames of an organ, <prefix><organ>/<frame>.
 inline constexpr char kBaseFrame[] = "base";
 inline constexpr char kTipFrame[] = "tip";
@@ -70,8 +78,10 @@ inline constexpr char kTipMarker[] = "tip";
 inline constexpr char kWallMarker[] = "wall";
 inline constexpr char kSpringMarker[] = "spring";
 inline constexpr char kHeldApexMarker[] = "held_apex";
+inline constexpr char kSourceMarker[] = "source";
 inline constexpr char kLampMarker[] = "point_source";
 inline constexpr char kLightMarker[] = "light_direction";
+inline constexpr char kLegendMarker[] = "legend";
 
 // Loggers, children of ros.sensory_growth.
 inline constexpr char kLogSimulation[] = "sim";

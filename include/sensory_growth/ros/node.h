@@ -34,6 +34,7 @@
 #include "sensory_growth/ros/signals.h"
 #include "sensory_growth/ros/simulation_loop.h"
 #include "sensory_growth/ros/stimulus_counters.h"
+#include "sensory_growth/ros/stimulus_handles.h"
 #include "sensory_growth/ros/stimulus_intake.h"
 #include "sensory_growth/ros/stimulus_services.h"
 #include "sensory_growth/ros/world_frame.h"
@@ -79,6 +80,7 @@ class Node {
   LiveParameters live_;
   std::unique_ptr<Diagnostics> diagnostics_;
   std::unique_ptr<ClockListener> clock_listener_;
+  std::unique_ptr<StimulusHandles> handles_;  // if ~interactive_markers
   std::vector<ros::ServiceServer> services_;
   std::vector<ros::WallTimer> timers_;
   ros::WallTimer marker_timer_;

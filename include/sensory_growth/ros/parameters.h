@@ -30,7 +30,7 @@ enum class BackwardJump {
 };
 
 enum class MarkerShape { tube, line };
-enum class MarkerField { curvature, growth_rate, stretch, none };
+enum class MarkerField { curvature, growth_rate, stress, stretch, age, none };
 enum class Compression { none, lz4, bz2 };
 
 /// Private parameters of the node, with their defaults.
@@ -66,8 +66,9 @@ struct Parameters {
   double marker_rate = 20.0;  ///< [1/s of wall time]
   MarkerShape marker_style = MarkerShape::tube;
   MarkerField marker_color = MarkerField::curvature;
-  double marker_color_limit = 0.0;    ///< value of the brightest colour [1/m, 1/s or -]; 0: the largest at present
+  double marker_color_limit = 0.0;    ///< value of the brightest colour [SI]; 0: the largest at present, rounded up
   double marker_radius_scale = 1.0;   ///< thin organs are drawn this much thicker [-]
+  bool interactive_markers = true;    ///< handles for stimuli in rviz
   double marker_lamp_diameter = 0.0;  ///< [m]; 0: 0.15 of the longest organ at the start
 };
 

@@ -6,10 +6,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "sensory_growth/growth/cues.h"
+#include "sensory_growth/growth/environment.h"
 #include "sensory_growth/mechanics/energy.h"
 #include "sensory_growth/mechanics/surroundings.h"
 #include "sensory_growth/rod/rod.h"
@@ -24,7 +26,8 @@ struct OrganSnapshot {
   growth::CueFields cues;
   mechanics::Energy energy;
   mechanics::Surroundings surroundings;
-  simulation::OrganReport report;  ///< of the step that led here
+  simulation::OrganReport report;             ///< of the step that led here
+  std::optional<growth::PointSource> source;  ///< as which the other organs sense it; nothing if they do not
 };
 
 struct Snapshot {

@@ -36,6 +36,9 @@ class StimulusIntake {
   StimulusIntake(ros::NodeHandle node, ros::NodeHandle private_node, const WorldFrame& world,
                  StimulusCounters& counters, Outputs outputs);
 
+  /// Takes what came by a topic, or by hand; the vector is in the frame of `header`. Nothing: its operation is unknown.
+  void receive(const std::optional<simulation::StimulusCommand>& command, const std_msgs::Header& header);
+
  private:
   /// A command whose vector is still in the frame of its message.
   struct Waiting {
@@ -44,7 +47,6 @@ class StimulusIntake {
     std::chrono::steady_clock::time_point deadline;
   };
 
-  void receive(const std::optional<simulation::StimulusCommand>& command, const std_msgs::Header& header);
   void drain();
   void refuse(StimulusFate fate, const std::string& why);
 

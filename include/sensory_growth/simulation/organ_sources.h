@@ -3,12 +3,16 @@
 /// Organs as point sources for each other (model.md 14).
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "sensory_growth/growth/environment.h"
 #include "sensory_growth/simulation/organ.h"
 
 namespace sensory_growth::simulation {
+
+/// The organ as the others sense it, at rest; nothing if they do not.
+std::optional<growth::PointSource> sourceOf(const Organ& organ);
 
 /// Where the organs are that others sense, and how they move. An organ does not sense itself.
 ///

@@ -1,0 +1,52 @@
+// The markers of every shipped scenario, as it starts and as it grows, please rviz.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "ros/marker_lint.h"
+#include "sensory_growth/ros/markers.h"
+#include "sensory_growth/simulation/scenario_yaml.h"
+#include "sensory_growth/simulation/simulation.h"
+
+namespace sensory_growth::node {
+namespace {
+
+constexpr int kSteps = 3;
+
+void expectClean(const std::string& file) {
+  simulation::Simulation simulation(simulation::loadScenario(file));
+  const SnapshotPtr first = takeSnapshot(simulation, ros::Time(1), 0);
+  std::vector<MarkerStream> streams;
+  for (const MarkerField field : {MarkerField::curvature, MarkerField::growth_rate, MarkerField::stress,
+                                  MarkerField::stretch, MarkerField::age, MarkerField::none}) {
+    for (const MarkerShape shape : {MarkerShape::tube, MarkerShape::line}) {
+      Parameters parameters;
+      parameters.marker_color = field;
+      parameters.marker_style = shape;
+      streams.emplace_back(makeMarkerSettings(parameters, *first));
+    }
+  }
+  for (int step = 0; step <= kSteps; ++step) {
+    const SnapshotPtr snapshot = takeSnapshot(simulation, ros::Time(1 + step), 0);
+    for (MarkerStream& stream : streams) EXPECT_THAT(testing::lint(stream.next(*snapshot)), ::testing::IsEmpty());
+    const simulation::StepReport report = simulation.step();
+    ASSERT_TRUE(report.ok) << report.message;
+  }
+}
+
+TEST(ShippedScenarios, HaveMarkersThatPleaseRviz) {
+  int scenarios = 0;
+  for (const auto& entry : std::filesystem::directory_iterator("../config")) {
+    if (entry.path().extension() != ".yaml") continue;
+    SCOPED_TRACE(entry.path().filename());
+    expectClean(entry.path());
+    ++scenarios;
+  }
+  EXPECT_GE(scenarios, 20);
+}
+
+}  // namespace
+}  // namespace sensory_growth::node
