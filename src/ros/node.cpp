@@ -194,8 +194,9 @@ void Node::stopRecording(StopRecording::Response& response) {
 
 void Node::startTimers() {
   const auto every = [this](double interval, auto action, ros::CallbackQueue* queue = nullptr) {
-    timers_.push_back(node_.createWallTimer(ros::WallTimerOptions(
-        ros::WallDuration(interval), [action](const ros::WallTimerEvent&) { action(); }, queue)));
+    ros::WallTimerOptions options(
+        ros::WallDuration(interval), [action](const ros::WallTimerEvent&) { action(); }, queue);
+    timers_.push_back(node_.createWallTimer(options));
   };
   if (handles_) every(1.0 / parameters_.marker_rate, [this] { handles_->show(); });
   every(0.1, [this] { clock_.keepAlive(); });
@@ -255,7 +256,7 @@ int runNode(const Signals& signals) {
   }
   if (!reading.problems.empty()) return complain(reading.problems);
   ROS_INFO_STREAM_NAMED(names::kLogRos, "effective parameters:\n" << loaded.sources.parameters);
-  if (!waitForTime(signals)) return 0;
+  if (reading.parameters.clock_mode == ClockMode::follow && !waitForTime(signals)) return 0;
   try {
     return Node(reading.parameters, std::move(loaded)).run(signals);
   } catch (const std::exception& error) {
