@@ -115,12 +115,14 @@ LiveParameters::LiveParameters(const Parameters& parameters, ros::NodeHandle pri
 
 std::vector<std::string> LiveParameters::change(const XmlRpcValue& changes) {
   const Parameters before = now();
-  const ParameterReading reading = changeParameters(before, changes);
+  ParameterReading reading = changeParameters(before, changes);
+  if (reading.problems.empty()) {
+    if (const auto refusal = use_(before, reading.parameters)) reading.problems.push_back(*refusal);
+  }
   if (!reading.problems.empty()) {
     for (const std::string& problem : reading.problems) ROS_WARN_STREAM_NAMED(names::kLogRos, "refused: " << problem);
     return reading.problems;
   }
-  use_(before, reading.parameters);
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     parameters_ = reading.parameters;

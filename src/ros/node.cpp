@@ -56,7 +56,7 @@ Node::Node(const Parameters& parameters, LoadedScenario loaded)
       checkpoints_(parameters, loaded.sources.node, step_, loop_, publishers_),
       stimulus_services_(private_node_, parameters.world_frame, world_, loop_, counters_),
       live_(parameters, private_node_, control_queue_,
-            [this](const Parameters& before, const Parameters& now) { use(before, now); }),
+            [this](const Parameters& before, const Parameters& now) { return use(before, now); }),
       topic_spinner_(1),
       control_spinner_(1, &control_queue_),
       step_spinner_(1, &step_queue_),
@@ -218,14 +218,18 @@ Answer Node::setRealTimeFactor(double factor) {
   return answer;
 }
 
-/// Takes parameters into use that have changed while the node runs.
-void Node::use(const Parameters& before, const Parameters& now) {
-  if (now.real_time_factor != loop_.status().real_time_factor) loop_.setRealTimeFactor(now.real_time_factor);
+/// Takes parameters into use that have changed while the node runs. Returns why it cannot, or nothing.
+std::optional<std::string> Node::use(const Parameters& before, const Parameters& now) {
+  if (now.real_time_factor != loop_.status().real_time_factor) {
+    const Answer answer = loop_.setRealTimeFactor(now.real_time_factor);
+    if (!answer.success) return answer.message;
+  }
   if (now.marker_rate != before.marker_rate) marker_timer_.setPeriod(ros::WallDuration(1.0 / now.marker_rate));
   loop_.atBoundary([&](const Snapshot& snapshot) {
     publishers_.setParameters(now, snapshot);
     return std::nullopt;
   });
+  return std::nullopt;
 }
 
 void Node::logProgress() const {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "sensory_growth/simulation/checkpoint.h"
 #include "sensory_growth/simulation/checksum.h"
 #include "sensory_growth/simulation/scenario_yaml.h"
 #include "sensory_growth/simulation/simulation.h"
@@ -15,6 +16,7 @@
 namespace sensory_growth::simulation {
 namespace {
 
+using testing::ElementsAre;
 using testing::HasSubstr;
 
 /// An entry of `organs`; the organs attract each other.
@@ -56,6 +58,12 @@ std::uint64_t sumOf(const Organ& organ) {
   Checksum sum;
   sum.add(organ.rod());
   return sum.value();
+}
+
+std::vector<std::string> idsOf(const Simulation& simulation) {
+  std::vector<std::string> ids;
+  for (const Organ& organ : simulation.organs()) ids.push_back(organ.scenario().id);
+  return ids;
 }
 
 TEST(Spawning, AtTheStartEqualsAnOrganOfTheScenario) {
@@ -190,6 +198,34 @@ TEST(RandomScenarios, StaySoundAndEqualOnAnyNumberOfThreadsWhileOrgansComeAndGo)
     EXPECT_EQ(run(1), run(3));
   }
   EXPECT_GT(changes, 50);
+}
+
+TEST(Spawning, IsKeptByACheckpointTogetherWithWhatFlashes) {
+  Simulation simulation(scenarioOf({organ("left", 0.0, kSource), organ("right", 0.05)}));
+  takeSteps(simulation, 3);
+  StimulusCommand flash;
+  flash.id = "flash";
+  flash.vector = {0.1, 0.0, 0.1};
+  flash.timing = {120.0, 180.0, 300.0};
+  ASSERT_EQ(simulation.apply(GravityCommand{{0.0, 0.0, 1.0}}).refusal, "");
+  for (const Command& command : {Command(SpawnCommand{organ("new", 0.1, kSource)}), Command(RemoveCommand{"left"}),
+                                 Command(SpawnCommand{organ("left", -0.1)}), Command(flash)}) {
+    ASSERT_EQ(simulation.apply(command).refusal, "");
+  }
+  ASSERT_EQ(simulation.apply(GravityCommand{{0.0, 0.0, -9.81}}).refusal, "");
+  takeSteps(simulation, 4);  // the lamp has been switched on
+
+  const Checkpoint checkpoint = decode(encode({"test", "", "", simulation.state()}));
+  Simulation resumed(simulation.scenario(), checkpoint.state);
+  ASSERT_EQ(checksum(resumed), checksum(simulation));
+  for (int i = 0; i < 12; ++i) {
+    takeSteps(simulation, 1);
+    takeSteps(resumed, 1);
+    ASSERT_EQ(checksum(resumed), checksum(simulation)) << simulation.stepIndex();
+    ASSERT_EQ(resumed.environment().point_sources.size(), simulation.environment().point_sources.size());
+  }
+  resumed.reset();
+  EXPECT_THAT(idsOf(resumed), ElementsAre("left", "right"));
 }
 
 }  // namespace

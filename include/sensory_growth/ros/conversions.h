@@ -26,6 +26,7 @@
 #include "sensory_growth/Stimuli.h"
 #include "sensory_growth/rod/rod.h"
 #include "sensory_growth/ros/snapshot.h"
+#include "sensory_growth/simulation/checkpoint.h"
 #include "sensory_growth/simulation/commands.h"
 
 namespace sensory_growth::node {

@@ -13,6 +13,9 @@
 
 #include <functional>
 #include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "sensory_growth/ros/parameters.h"
 
@@ -29,8 +32,8 @@ XmlRpc::XmlRpcValue toTree(const dynamic_reconfigure::Config& config);
 
 class LiveParameters {
  public:
-  /// Takes changed parameters into use; returns when they are.
-  using Use = std::function<void(const Parameters& before, const Parameters& now)>;
+  /// Takes changed parameters into use; returns when they are, or why they cannot be.
+  using Use = std::function<std::optional<std::string>(const Parameters& before, const Parameters& now)>;
 
   /// Serves from the queue. The functions are called on its thread.
   LiveParameters(const Parameters& parameters, ros::NodeHandle private_node, ros::CallbackQueue& queue, Use use);

@@ -9,6 +9,8 @@
 #include <ros/wall_timer.h>
 
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "sensory_growth/Command.h"
@@ -59,7 +61,7 @@ class Node {
   void advertiseServices();
   void startTimers();
   Answer setRealTimeFactor(double factor);
-  void use(const Parameters& before, const Parameters& now);
+  std::optional<std::string> use(const Parameters& before, const Parameters& now);
   void logProgress() const;
 
   const Parameters parameters_;
