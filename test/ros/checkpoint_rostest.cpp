@@ -162,9 +162,9 @@ TEST_F(Checkpointing, RefusalLeavesTheRunUntouched) {
   std::string altered = bytes, newer = bytes;
   altered[bytes.size() / 2] ^= 1;
   newer[9] = 2;
-  simulation::Checkpoint renamed = readCheckpoint(file), slower = renamed, bent = renamed;
+  simulation::Checkpoint renamed = readCheckpoint(file), finer = renamed, bent = renamed;
   renamed.scenario.replace(renamed.scenario.find("id: shoot"), 9, "id: other");
-  slower.scenario.replace(slower.scenario.find("step: 1 min"), 11, "step: 2 min");
+  finer.scenario.replace(finer.scenario.find("step: 1 min"), 11, "step: 30 s");
   bent.state.organs[0].moment.rod.bends[0].curvature.x() = NAN;
 
   ASSERT_TRUE(load(name("three")).success);  // in the middle of what follows, as good as at its beginning
@@ -178,7 +178,7 @@ TEST_F(Checkpointing, RefusalLeavesTheRunUntouched) {
       {write("newer", newer), "has format 2; this version of sensory_growth reads 1, a newer one is needed"},
       {write("text", "# a text"), "is no checkpoint"},
       {write("renamed", simulation::encode(renamed)), "organ 'shoot': comes from nowhere, or twice"},
-      {write("slower", simulation::encode(slower)), "has steps of 120.000000 s of growth; this run has 60.000000 s"},
+      {write("finer", simulation::encode(finer)), "has steps of 30.000000 s of growth; this run has 60.000000 s"},
       {write("bent", simulation::encode(bent)), "bend 0 is none"},
       {name("absent"), "does not exist"},
       {"../" + name("three"), "without a directory"},
