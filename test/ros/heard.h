@@ -43,6 +43,20 @@ class Heard {
     return found;
   }
 
+  /// What is not latched is lost until the connection stands: makes the node send something until that arrives.
+  template <typename Make>
+  void connect(const Make& make_it_send) {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(15);
+    std::unique_lock<std::mutex> lock(mutex_);
+    while (messages_.empty() && std::chrono::steady_clock::now() < deadline) {
+      lock.unlock();
+      make_it_send();
+      lock.lock();
+      changed_.wait_for(lock, std::chrono::milliseconds(100), [this] { return !messages_.empty(); });
+    }
+    EXPECT_FALSE(messages_.empty()) << topic_ << ": nothing";
+  }
+
   /// From now on only what comes later counts.
   void forget() {
     const std::lock_guard<std::mutex> lock(mutex_);

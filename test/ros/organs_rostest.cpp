@@ -5,6 +5,8 @@
 #include <tf2_msgs/TFMessage.h>
 #include <visualization_msgs/MarkerArray.h>
 
+#include <algorithm>
+#include <map>
 #include <string>
 
 #include "ros/heard.h"
@@ -109,6 +111,7 @@ TEST_F(Organs, AreRefusedWithAReason) {
 
 TEST_F(Organs, HaveFramesWhileTheyAreThere) {
   Heard<tf2_msgs::TFMessage> moving("/tf"), fixed("/tf_static");
+  moving.connect([this] { node_.step(1); });
   fixed.waitFor("base of the shoot", [](const auto& m) { return hasFrame(m, "shoot/base"); });
   ASSERT_TRUE(spawn(organText("late")).success);
   const auto base = fixed.waitFor("base", [](const auto& m) { return hasFrame(m, "late/base"); });
@@ -129,6 +132,7 @@ TEST_F(Organs, HaveFramesWhileTheyAreThere) {
 
 TEST_F(Organs, SendNoTransformTwice) {
   Heard<tf2_msgs::TFMessage> moving("/tf");
+  moving.connect([this] { node_.step(1); });
   std::map<std::string, ros::Time> sent;
   ASSERT_TRUE(spawn(organText("late")).success);
   ASSERT_TRUE(remove("late").success);

@@ -60,7 +60,7 @@ TEST_F(StimulusServices, AnswerWhenTheStimulusIsInForce) {
   ASSERT_EQ(stimuli.light_directions.size(), 1u);
   EXPECT_EQ(stimuli.light_directions[0].towards.y, 0.6);
   EXPECT_EQ(node_.applied(0).id, "lamp");
-  ASSERT_TRUE(set(lamp(PointSource::REMOVE, "lamp", {})).success);
+  ASSERT_TRUE(set(lamp(PointSource::REMOVE, "lamp", rod::Vector3::Zero())).success);
   EXPECT_TRUE(list().point_sources.empty());
 }
 
@@ -74,16 +74,18 @@ TEST_F(StimulusServices, TransformAsTheTopicsDo) {
 
 TEST_F(StimulusServices, RefuseWithAReasonAndCount) {
   const std::uint64_t before = node_.waitForStatus("status", [](const Status&) { return true; }).stimuli_refused;
-  EXPECT_THAT(set(lamp(0, "lamp", {})).message, HasSubstr("operation must be"));
-  EXPECT_THAT(set(lamp(PointSource::ADD, "", {})).message, HasSubstr("id is empty"));
-  EXPECT_THAT(set(light(LightDirection::ADD, "sun", {})).message, HasSubstr("direction has zero length"));
-  EXPECT_THAT(set(lamp(PointSource::CHANGE, "nobody", {})).message, HasSubstr("there is no point_source 'nobody'"));
-  PointSource lost = lamp(PointSource::ADD, "lost", {});
+  EXPECT_THAT(set(lamp(0, "lamp", rod::Vector3::Zero())).message, HasSubstr("operation must be"));
+  EXPECT_THAT(set(lamp(PointSource::ADD, "", rod::Vector3::Zero())).message, HasSubstr("id is empty"));
+  EXPECT_THAT(set(light(LightDirection::ADD, "sun", rod::Vector3::Zero())).message,
+              HasSubstr("direction has zero length"));
+  EXPECT_THAT(set(lamp(PointSource::CHANGE, "nobody", rod::Vector3::Zero())).message,
+              HasSubstr("there is no point_source 'nobody'"));
+  PointSource lost = lamp(PointSource::ADD, "lost", rod::Vector3::Zero());
   lost.header.frame_id = "nowhere";
   const SetPointSource::Response refused = set(lost);
   EXPECT_FALSE(refused.success);
   EXPECT_THAT(refused.message, HasSubstr("nowhere"));
-  PointSource brief = lamp(PointSource::ADD, "brief", {});
+  PointSource brief = lamp(PointSource::ADD, "brief", rod::Vector3::Zero());
   brief.period = 100.0;
   EXPECT_THAT(set(brief).message, HasSubstr("needs a duration"));
   brief.duration = 1.0;
@@ -122,7 +124,7 @@ TEST_F(StimulusServices, TimedStimuliSwitchAtStepBoundaries) {
   EXPECT_EQ(on.start + on.duration + on.period, 0.0);
   EXPECT_EQ(off.operation, AppliedCommand::REMOVE);
   EXPECT_EQ(off.step_index, 4u);
-  ASSERT_TRUE(set(lamp(PointSource::REMOVE, "flash", {})).success);
+  ASSERT_TRUE(set(lamp(PointSource::REMOVE, "flash", rod::Vector3::Zero())).success);
   EXPECT_TRUE(list().scheduled.empty());
 }
 
