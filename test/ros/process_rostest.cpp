@@ -113,7 +113,7 @@ TEST_F(Process, AFullDiskEndsTheRecordingAndNothingElse) {
   set("record", true);
   set("recording_file", std::string("cut_short.bag"));
   set("recording_compression", std::string("none"));
-  ChildProcess child = start(200000);
+  ChildProcess child = start(1000000);
   NodeUnderTest node(name_);
   DiagnosticsListener diagnostics;
   node.stepTo(200, 0);
