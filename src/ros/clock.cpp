@@ -98,6 +98,7 @@ std::uint64_t Clock::overruns() {
 
 void Clock::reset() {
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (followed_) followed_->reset();
   if (settings_.reset_time == ResetTime::keep_time) return;
   ticks_ = 0;
   last_published_ = {};  // whoever listens is told at once

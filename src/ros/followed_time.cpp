@@ -1,6 +1,7 @@
 #include "sensory_growth/ros/followed_time.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "sensory_growth/ros/clock.h"
 
@@ -13,15 +14,16 @@ const ros::Duration kSmallestDifference(0, 1);
 }  // namespace
 
 void FollowedTime::hear(const ros::Time& now) {
-  went_back_ = went_back_ || now < now_;
+  if (now < now_) went_back_to_ = now;
   now_ = now;
 }
 
 bool FollowedTime::takeBackwardJump() {
-  if (!went_back_) return false;
-  went_back_ = false;
+  if (!went_back_to_) return false;
   last_stamp_ = {};
-  stop();
+  if (begin_) begin_ = went_back_to_;
+  taken_ = 0;
+  went_back_to_.reset();
   return true;
 }
 
@@ -30,9 +32,16 @@ void FollowedTime::start() {
   taken_ = 0;
 }
 
+void FollowedTime::reset() {
+  is_first_ = true;
+  if (begin_ && taken_ > 0) start();  // otherwise time has just begun, or gone back
+}
+
 ros::Time FollowedTime::tick() {
   ros::Time stamp = now_;
-  if (isDue()) {
+  if (std::exchange(is_first_, false)) {
+    stamp = begin_.value_or(now_);
+  } else if (isDue()) {
     if (now_ - due() > kMostBehind) {
       ++overruns_;
       begin_ = now_ - kMostBehind;

@@ -185,12 +185,11 @@ void SimulationLoop::resetNow() {
   clock_.reset();
   run_.reset();
   setMode(mode_ == Mode::running ? Mode::running : Mode::paused);
-  if (mode_ == Mode::running) beginRunning();
+  pacer_.start(std::chrono::steady_clock::now());
 }
 
 void SimulationLoop::jumpBack() {
-  if (settings_.on_backward_jump == BackwardJump::reset) return resetNow();
-  if (mode_ == Mode::running) beginRunning();
+  if (settings_.on_backward_jump == BackwardJump::reset) resetNow();
 }
 
 void SimulationLoop::beginRunning() {

@@ -48,20 +48,34 @@ TEST(FollowedTime, WithoutRunningStampsAreTheTimeAndNeverTheSame) {
 }
 
 TEST(FollowedTime, GoesBackWithTheClock) {
+  for (const bool is_reset : {false, true}) {
+    FollowedTime time(0.25, ros::Time(100.0));
+    time.start();
+    time.hear(ros::Time(100.25));
+    time.tick();
+    EXPECT_FALSE(time.takeBackwardJump());
+    time.hear(ros::Time(50.0));
+    time.hear(ros::Time(50.5));  // heard before anybody has asked
+    EXPECT_TRUE(time.takeBackwardJump());
+    EXPECT_FALSE(time.takeBackwardJump());
+    if (is_reset) {
+      time.reset();
+      EXPECT_EQ(time.tick().toSec(), 50.0);
+    }
+    EXPECT_EQ(takeDue(time), (std::vector<double>{50.25, 50.5}));
+  }
+}
+
+TEST(FollowedTime, AfterAResetStepsCountFromTheFirstState) {
   FollowedTime time(0.25, ros::Time(100.0));
   time.start();
   time.hear(ros::Time(100.25));
   time.tick();
-  EXPECT_FALSE(time.takeBackwardJump());
-  time.hear(ros::Time(50.0));
-  time.hear(ros::Time(50.5));  // heard before anybody has asked
-  EXPECT_TRUE(time.takeBackwardJump());
-  EXPECT_FALSE(time.takeBackwardJump());
-  EXPECT_FALSE(time.isDue());
-  EXPECT_EQ(time.tick().toSec(), 50.5);
-  time.start();
-  time.hear(ros::Time(50.75));
-  EXPECT_EQ(takeDue(time), std::vector<double>{50.75});
+  time.hear(ros::Time(100.375));
+  time.reset();
+  EXPECT_EQ(time.tick().toSec(), 100.375);
+  time.hear(ros::Time(100.625));
+  EXPECT_EQ(takeDue(time), std::vector<double>{100.625});
 }
 
 TEST(FollowedTime, NothingAccumulates) {

@@ -56,7 +56,7 @@ class Clock {
   /// Steps that were given up because the clock that is followed was too far ahead, counted once each time.
   std::uint64_t overruns();
 
-  /// A reset: the next state has the stamp of the very first, if that is how time is reset.
+  /// A reset: the next state is the first, and has the stamp of the very first if that is how time is reset.
   void reset();
 
   /// The stamp of a new state, later than all before; published on /clock unless `rate` forbids it just now.

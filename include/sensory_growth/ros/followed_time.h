@@ -17,7 +17,8 @@ class FollowedTime {
   /// The clock says `now`.
   void hear(const ros::Time& now);
 
-  /// True if the clock went backwards since the last call. Then what was due is due no more, and stamps may go back.
+  /// True if the clock went backwards since the last call. Then stamps may go back, and steps that are due count from
+  /// the time to which it went.
   bool takeBackwardJump();
 
   /// Running begins: the first step is due one step from now.
@@ -25,6 +26,9 @@ class FollowedTime {
 
   /// Running ends: nothing is due.
   void stop() { begin_.reset(); }
+
+  /// A reset: the next state is the first, and steps that are due count from it.
+  void reset();
 
   bool isDue() const { return begin_ && due() <= now_; }
 
@@ -44,7 +48,8 @@ class FollowedTime {
   std::optional<ros::Time> begin_;  // steps are due at whole numbers of steps from here; nothing: none is
   std::uint64_t taken_ = 0;         // steps since then
   std::uint64_t overruns_ = 0;
-  bool went_back_ = false;
+  std::optional<ros::Time> went_back_to_;
+  bool is_first_ = false;  // of the next state
 };
 
 }  // namespace sensory_growth::node
