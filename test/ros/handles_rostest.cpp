@@ -104,18 +104,22 @@ class Rviz {
  private:
   void takeAll(const visualization_msgs::InteractiveMarkerInit& all) {
     const std::lock_guard<std::mutex> lock(mutex_);
+    if (all.seq_num < sequence_) return;  // it comes on a connection of its own, later than an update that it precedes
+    sequence_ = all.seq_num;
+    handles_.clear();
     for (const InteractiveMarker& handle : all.markers) handles_[handle.name] = handle;
     changed_.notify_all();
   }
 
   void takeUpdate(const visualization_msgs::InteractiveMarkerUpdate& update) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    for (const InteractiveMarker& handle : update.markers) handles_[handle.name] = handle;
-    for (const auto& moved : update.poses) {
-      handles_[moved.name].pose = moved.pose;
-      ++moves_[moved.name];
+    for (const auto& moved : update.poses) ++moves_[moved.name];
+    if (update.seq_num > sequence_) {
+      sequence_ = update.seq_num;
+      for (const InteractiveMarker& handle : update.markers) handles_[handle.name] = handle;
+      for (const auto& moved : update.poses) handles_[moved.name].pose = moved.pose;
+      for (const std::string& name : update.erases) handles_.erase(name);
     }
-    for (const std::string& name : update.erases) handles_.erase(name);
     changed_.notify_all();
   }
 
@@ -129,6 +133,7 @@ class Rviz {
 
   std::mutex mutex_;  // guards what follows
   std::condition_variable changed_;
+  std::uint64_t sequence_ = 0;
   std::map<std::string, InteractiveMarker> handles_;
   std::map<std::string, int> moves_;
 
