@@ -217,7 +217,7 @@ TEST(AppliedCommandMessage, NeedsAKnownKindAndOperation) {
   EXPECT_FALSE(toCommand(message));
   message.operation = AppliedCommand::ADD;
   EXPECT_TRUE(toCommand(message));
-  message.kind = 5;
+  message.kind = 255;
   EXPECT_FALSE(toCommand(message));
 }
 
