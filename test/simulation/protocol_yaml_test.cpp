@@ -35,6 +35,13 @@ void expectStimulus(const TimedCommand& actual, double time, StimulusOperation o
   EXPECT_EQ(command.strength, strength);
 }
 
+void expectTiming(const TimedCommand& actual, double start, double duration, double period) {
+  const StimulusTiming& timing = std::get<StimulusCommand>(actual.command).timing;
+  EXPECT_DOUBLE_EQ(timing.start, start);
+  EXPECT_DOUBLE_EQ(timing.duration, duration);
+  EXPECT_DOUBLE_EQ(timing.period, period);
+}
+
 void expectSetting(const TimedCommand& actual, double time, const std::string& organ, const std::string& name,
                    double value) {
   SCOPED_TRACE(name);
@@ -52,6 +59,9 @@ TEST(ScenarioYaml, StimuliAndProtocolBecomeTimedCommands) {
   ASSERT_EQ(p.size(), 11u);
   expectStimulus(p[0], 0, Operation::add, Kind::point_source, "lamp", {0.1, 0, 0.2}, 0.5);
   expectStimulus(p[1], 0, Operation::add, Kind::light_direction, "sun", {0, 0.6, 0.8}, -1);
+  expectTiming(p[0], 120, 240, 600);
+  expectTiming(p[1], 240, 360, 900);
+  expectTiming(p[2], 0, 0, 0);
   expectStimulus(p[2], 1800, Operation::change, Kind::point_source, "lamp", {0, 1, 0}, 2);
   expectStimulus(p[3], 1800, Operation::change, Kind::light_direction, "sun", {1, 0, 0}, 1);
   expectStimulus(p[4], 7200, Operation::add, Kind::point_source, "second_lamp", {1, 1, 1}, 1);

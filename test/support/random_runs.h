@@ -30,6 +30,22 @@ inline bool isSound(const simulation::Organ& organ) {
          std::isfinite(organ.report().largest_differential_growth);
 }
 
+/// Takes an organ away or adds another, if the dice say so; 1 if there was a change.
+inline int exchangeOrgan(Dice& dice, simulation::Simulation& simulation, int step, int steps) {
+  if (!dice.chance(0.3)) return 0;
+  if (!simulation.organs().empty() && dice.chance(0.5)) {
+    const simulation::RemoveCommand command{dice.pick(simulation.organs()).scenario().id};
+    return simulation.apply(command).refusal.empty() ? 1 : 0;
+  }
+  Draft draft = {};
+  draft.steps = steps;
+  draft.method = "static";
+  draft.step = simulation.scenario().stepping.step;
+  std::string text = organText(dice, draft, 100 + step);
+  text[text.find('-')] = ' ';  // no entry of a sequence
+  return simulation.apply(simulation::SpawnCommand{text}).refusal.empty() ? 1 : 0;
+}
+
 /// How many of `count` scenarios, from the given seed on, took all their steps; the others reported a fault, and all
 /// states were sound.
 inline int soundRuns(unsigned first_seed, int count, int steps, const std::string& method) {

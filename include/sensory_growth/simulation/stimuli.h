@@ -42,7 +42,7 @@ struct StimulusCommand {
   std::string id;                              ///< unique among stimuli of one kind; not empty
   rod::Vector3 vector = rod::Vector3::Zero();  ///< position [m], or direction towards the light (any length > 0)
   double strength = 1.0;                       ///< multiplies the sensitivity of the organ [-]; negative repels
-  StimulusTiming timing;                       ///< of what is not removed
+  StimulusTiming timing = {};                  ///< of what is not removed
 };
 
 const char* name(StimulusKind kind);
