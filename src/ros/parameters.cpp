@@ -13,7 +13,11 @@
 namespace sensory_growth::node {
 namespace {
 
-enum class Need { optional, required };
+enum class Need {
+  optional,
+  required,
+  live,  ///< optional, and may change while the node runs
+};
 
 /// Allowed values of a number, limits included.
 struct Range {
@@ -38,10 +42,10 @@ void visit(Parameters& p, Visitor& parameter) {
   parameter.number("clock_rate", p.clock_rate, {1.0, 1e5});
   parameter.count("threads", p.threads, {0, 1024});
   parameter.number("growth_time_scale", p.growth_time_scale, {kTiny, kHuge}, Need::required);
-  parameter.number("real_time_factor", p.real_time_factor, {0.0, kHighestRealTimeFactor});
+  parameter.number("real_time_factor", p.real_time_factor, {0.0, kHighestRealTimeFactor}, Need::live);
   parameter.flag("start_paused", p.start_paused);
   parameter.flag("exit_when_finished", p.exit_when_finished);
-  parameter.flag("progress", p.progress);
+  parameter.flag("progress", p.progress, Need::live);
   parameter.flag("record", p.record);
   parameter.text("recording_directory", p.recording_directory);
   parameter.text("recording_file", p.recording_file);
@@ -49,16 +53,18 @@ void visit(Parameters& p, Visitor& parameter) {
                    {{"none", Compression::none}, {"lz4", Compression::lz4}, {"bz2", Compression::bz2}});
   parameter.count("recording_marker_every", p.recording_marker_every, {0, 1000000});
   parameter.number("recording_minimum_free_space", p.recording_minimum_free_space, {0.0, 1e18});
-  parameter.number("marker_rate", p.marker_rate, {0.1, 100.0});
-  parameter.choice("marker_style", p.marker_style, {{"tube", MarkerShape::tube}, {"line", MarkerShape::line}});
+  parameter.number("marker_rate", p.marker_rate, {0.1, 100.0}, Need::live);
+  parameter.choice("marker_style", p.marker_style, {{"tube", MarkerShape::tube}, {"line", MarkerShape::line}},
+                   Need::live);
   parameter.choice("marker_color", p.marker_color,
                    {{"curvature", MarkerField::curvature},
                     {"growth_rate", MarkerField::growth_rate},
                     {"stretch", MarkerField::stretch},
-                    {"none", MarkerField::none}});
-  parameter.number("marker_color_limit", p.marker_color_limit, {0.0, kHuge});
-  parameter.number("marker_radius_scale", p.marker_radius_scale, {1e-3, 1e3});
-  parameter.number("marker_lamp_diameter", p.marker_lamp_diameter, {0.0, 1e3});
+                    {"none", MarkerField::none}},
+                   Need::live);
+  parameter.number("marker_color_limit", p.marker_color_limit, {0.0, kHuge}, Need::live);
+  parameter.number("marker_radius_scale", p.marker_radius_scale, {1e-3, 1e3}, Need::live);
+  parameter.number("marker_lamp_diameter", p.marker_lamp_diameter, {0.0, 1e3}, Need::live);
 }
 
 std::string shown(XmlRpc::XmlRpcValue value) {
@@ -72,9 +78,12 @@ std::string shown(XmlRpc::XmlRpcValue value) {
   return text.str();
 }
 
+/// When parameters are read.
+enum class When { at_start, while_running };
+
 class Reader {
  public:
-  explicit Reader(XmlRpc::XmlRpcValue tree) : tree_(std::move(tree)) {}
+  Reader(XmlRpc::XmlRpcValue tree, When when) : tree_(std::move(tree)), when_(when) {}
 
   void text(const std::string& key, std::string& value, Need need = Need::optional) {
     if (!find(key, need)) return;
@@ -84,8 +93,8 @@ class Reader {
     if (value.empty() && need == Need::required) problem(key, "is empty");
   }
 
-  void flag(const std::string& key, bool& value) {
-    if (!find(key, Need::optional)) return;
+  void flag(const std::string& key, bool& value, Need need = Need::optional) {
+    if (!find(key, need)) return;
     XmlRpc::XmlRpcValue& given = tree_[key];
     if (given.getType() != XmlRpc::XmlRpcValue::TypeBoolean) return wrongType(key, "true or false");
     value = static_cast<bool&>(given);
@@ -108,8 +117,8 @@ class Reader {
   }
 
   template <typename Choice>
-  void choice(const std::string& key, Choice& value, Choices<Choice> choices) {
-    if (!find(key, Need::optional)) return;
+  void choice(const std::string& key, Choice& value, Choices<Choice> choices, Need need = Need::optional) {
+    if (!find(key, need)) return;
     XmlRpc::XmlRpcValue& given = tree_[key];
     std::string names;
     for (const auto& [name, meaning] : choices) {
@@ -138,9 +147,13 @@ class Reader {
  private:
   bool find(const std::string& key, Need need) {
     known_.push_back(key);
-    if (tree_.hasMember(key)) return true;
-    if (need == Need::required) problem(key, "is required and was not given");
-    return false;
+    const bool is_given = tree_.hasMember(key);
+    if (when_ == When::while_running) {
+      if (is_given && need != Need::live) problem(key, "cannot change while the node runs; start it again");
+      return is_given && need == Need::live;
+    }
+    if (!is_given && need == Need::required) problem(key, "is required and was not given");
+    return is_given;
   }
 
   void wrongType(const std::string& key, const std::string& expected) {
@@ -157,6 +170,7 @@ class Reader {
   }
 
   XmlRpc::XmlRpcValue tree_;
+  const When when_;
   std::vector<std::string> known_;
   std::vector<std::string> problems_;
 };
@@ -170,12 +184,14 @@ class Writer {
     for (const char c : value) text_ << (c == '\'' ? "''" : std::string(1, c));
     text_ << "'\n";
   }
-  void flag(const char* key, bool value) { text_ << key << ": " << (value ? "true" : "false") << '\n'; }
+  void flag(const char* key, bool value, Need = Need::optional) {
+    text_ << key << ": " << (value ? "true" : "false") << '\n';
+  }
   void count(const char* key, int value, Range) { text_ << key << ": " << value << '\n'; }
   void number(const char* key, double value, Range, Need = Need::optional) { text_ << key << ": " << value << '\n'; }
 
   template <typename Choice>
-  void choice(const char* key, Choice value, Choices<Choice> choices) {
+  void choice(const char* key, Choice value, Choices<Choice> choices, Need = Need::optional) {
     for (const auto& [name, meaning] : choices) {
       if (meaning == value) text_ << key << ": " << name << '\n';
     }
@@ -185,6 +201,38 @@ class Writer {
 
  private:
   std::ostringstream text_;
+};
+
+/// Lists those that may change while the node runs.
+class Lister {
+ public:
+  void text(const char*, const std::string&, Need = Need::optional) {}
+  void count(const char*, int, Range) {}
+
+  void flag(const char* key, bool value, Need need = Need::optional) {
+    if (need == Need::live) live_.push_back({key, value, false, true, {}});
+  }
+
+  void number(const char* key, double value, Range range, Need need = Need::optional) {
+    if (need == Need::live) live_.push_back({key, value, range.lowest, range.highest, {}});
+  }
+
+  template <typename Choice>
+  void choice(const char* key, Choice value, Choices<Choice> choices, Need need = Need::optional) {
+    if (need != Need::live) return;
+    LiveParameter& parameter = live_.emplace_back();
+    parameter.name = key;
+    parameter.lowest = parameter.highest = std::string();
+    for (const auto& [name, meaning] : choices) {
+      if (meaning == value) parameter.value = std::string(name);
+      parameter.choices.push_back(name);
+    }
+  }
+
+  std::vector<LiveParameter> take() { return std::move(live_); }
+
+ private:
+  std::vector<LiveParameter> live_;
 };
 
 bool startsWithSlash(const std::string& frame) { return !frame.empty() && frame.front() == '/'; }
@@ -201,16 +249,30 @@ void checkTogether(const Parameters& p, Reader& reader) {
   }
 }
 
-}  // namespace
-
-ParameterReading readParameters(XmlRpc::XmlRpcValue tree) {
-  ParameterReading reading;
-  Reader reader(std::move(tree));
+ParameterReading read(const Parameters& parameters, Reader reader) {
+  ParameterReading reading{parameters, {}};
   visit(reading.parameters, reader);
   checkTogether(reading.parameters, reader);
   reader.refuseUnknownKeys();
   reading.problems = reader.takeProblems();
   return reading;
+}
+
+}  // namespace
+
+ParameterReading readParameters(XmlRpc::XmlRpcValue tree) { return read({}, Reader(std::move(tree), When::at_start)); }
+
+ParameterReading changeParameters(const Parameters& parameters, XmlRpc::XmlRpcValue changes) {
+  ParameterReading reading = read(parameters, Reader(std::move(changes), When::while_running));
+  if (!reading.problems.empty()) reading.parameters = parameters;
+  return reading;
+}
+
+std::vector<LiveParameter> liveParameters(const Parameters& parameters) {
+  Lister lister;
+  Parameters copy = parameters;  // visit serves reading too, so it takes what it visits mutably
+  visit(copy, lister);
+  return lister.take();
 }
 
 ParameterReading loadParameters(const ros::NodeHandle& node) {
@@ -225,7 +287,7 @@ ParameterReading loadParameters(const ros::NodeHandle& node) {
 
 std::string toYaml(const Parameters& parameters) {
   Writer writer;
-  Parameters copy = parameters;  // visit serves reading too, so it takes what it visits mutably
+  Parameters copy = parameters;  // as above
   visit(copy, writer);
   return writer.str();
 }

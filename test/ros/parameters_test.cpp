@@ -4,6 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <string>
+#include <vector>
+
+#include "sensory_growth/ros/live_parameters.h"
 
 namespace sensory_growth::node {
 namespace {
@@ -102,6 +106,63 @@ TEST(Parameters, AreWrittenToTheLastDigit) {
   EXPECT_THAT(yaml, HasSubstr("growth_time_scale: 0.10000000000000001\n"));
   EXPECT_THAT(yaml, HasSubstr("clock_mode: publish\n"));
   EXPECT_THAT(yaml, HasSubstr("record: false\n"));
+}
+
+Parameters atStart() { return readParameters(minimal()).parameters; }
+
+TEST(LiveParameters, ChangeTogetherOrNotAtAll) {
+  XmlRpcValue changes;
+  changes["marker_rate"] = 5;
+  changes["marker_style"] = "line";
+  changes["progress"] = true;
+  const ParameterReading changed = changeParameters(atStart(), changes);
+  EXPECT_THAT(changed.problems, IsEmpty());
+  EXPECT_EQ(changed.parameters.marker_rate, 5.0);
+  EXPECT_EQ(changed.parameters.marker_style, MarkerShape::line);
+  EXPECT_TRUE(changed.parameters.progress);
+  EXPECT_EQ(changed.parameters.scenario, "/some/where.yaml");
+
+  changes["marker_color"] = "red";
+  const ParameterReading refused = changeParameters(atStart(), changes);
+  EXPECT_THAT(refused.problems, SizeIs(1));
+  EXPECT_EQ(toYaml(refused.parameters), toYaml(atStart()));
+}
+
+TEST(LiveParameters, RefuseWhatCannotChange) {
+  XmlRpcValue changes;
+  changes["threads"] = 2;
+  changes["scenario"] = "/some/where/else.yaml";
+  changes["marker_rate"] = 1000.0;
+  changes["marker_rat"] = 10.0;
+  changes["real_time_factor"] = 1e-9;
+  EXPECT_THAT(changeParameters(atStart(), changes).problems,
+              ElementsAre("~scenario cannot change while the node runs; start it again",
+                          "~threads cannot change while the node runs; start it again",
+                          "~marker_rate is 1000; it must be from 0.1 to 100",
+                          "~real_time_factor is below 1e-6 but not 0; at 0 the simulation runs as fast as it can",
+                          "~marker_rat is not a parameter of this node; did you mean ~marker_rate?"));
+}
+
+TEST(LiveParameters, ListNamesValuesAndLimits) {
+  std::vector<std::string> names;
+  for (const LiveParameter& parameter : liveParameters(atStart())) names.push_back(parameter.name);
+  EXPECT_THAT(names, ElementsAre("real_time_factor", "progress", "marker_rate", "marker_style", "marker_color",
+                                 "marker_color_limit", "marker_radius_scale", "marker_lamp_diameter"));
+  LiveParameter rate = liveParameters(atStart())[2];
+  EXPECT_EQ(static_cast<double&>(rate.value), 20.0);
+  EXPECT_EQ(static_cast<double&>(rate.lowest), 0.1);
+  EXPECT_EQ(static_cast<double&>(rate.highest), 100.0);
+  EXPECT_THAT(liveParameters(atStart())[3].choices, ElementsAre("tube", "line"));
+}
+
+TEST(LiveParameters, SurviveTheirMessage) {
+  Parameters parameters = atStart();
+  parameters.marker_rate = 7.0;
+  parameters.marker_style = MarkerShape::line;
+  parameters.progress = true;
+  const ParameterReading again = changeParameters(atStart(), toTree(toConfig(parameters)));
+  EXPECT_THAT(again.problems, IsEmpty());
+  EXPECT_EQ(toYaml(again.parameters), toYaml(parameters));
 }
 
 }  // namespace

@@ -64,6 +64,19 @@ ParameterReading loadParameters(const ros::NodeHandle& node);
 /// The same from a tree, as the parameter server keeps it.
 ParameterReading readParameters(XmlRpc::XmlRpcValue tree);
 
+/// The parameters with those of the tree changed while the node runs, or as they are if there are problems.
+ParameterReading changeParameters(const Parameters& parameters, XmlRpc::XmlRpcValue changes);
+
+/// A parameter that may change while the node runs. The values are all bool, double or text.
+struct LiveParameter {
+  std::string name;
+  XmlRpc::XmlRpcValue value, lowest, highest;  ///< limits of text are empty
+  std::vector<std::string> choices;            ///< that a text may be; empty for others
+};
+
+/// All that may change, with their values.
+std::vector<LiveParameter> liveParameters(const Parameters& parameters);
+
 /// All parameters as YAML, numbers to the last digit.
 std::string toYaml(const Parameters& parameters);
 
