@@ -24,8 +24,9 @@ simulation::Simulation build(simulation::Scenario scenario, int threads) {
 
 BatchRun::Reporter::Reporter(const node::Parameters& parameters, const node::Sources& sources,
                              const node::StimulusCounters& counters, Watch watch)
-    : node::Reporter(parameters, sources, counters,
-                     [&](const std::string& name) { return name.front() == '/' ? name : sources.node + "/" + name; }),
+    : node::Reporter(
+          parameters, sources, counters,
+          [node = sources.node](const std::string& name) { return name.front() == '/' ? name : node + "/" + name; }),
       watch_(std::move(watch)) {}
 
 void BatchRun::Reporter::publish(const Topic&, const node::Message& message) { watch_(message); }

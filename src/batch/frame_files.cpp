@@ -145,6 +145,7 @@ void FrameFiles::writeTable(const OrganState& state) {
   }
   std::ofstream& table = tables_[state.organ];
   if (!table.is_open()) {
+    refuseExisting(tablePath(state.organ));  // of an organ that came later
     table.open(tablePath(state.organ), std::ios::binary);
     table << "frame,x,y,z\n";
   }
@@ -157,6 +158,7 @@ void FrameFiles::writeVtk(const OrganState& state) {
   std::snprintf(number, sizeof number, "%06llu", static_cast<unsigned long long>(state.step_index));
   const std::string file = state.organ + "_" + number + ".vtk";
   writeWhole(fs::path(options_.vtk) / file, toVtk(state));
+  if (series_.count(state.organ) == 0) refuseExisting(seriesPath(state.organ));  // of an organ that came later
   series_[state.organ].push_back({file, state.growth_time});
 }
 

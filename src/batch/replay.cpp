@@ -95,14 +95,15 @@ void Replay::listen(const node::Message& message) {
   watch_(message);
 }
 
-/// Gives the commands of the step that did not come from the protocol and compares the whole of it.
+/// Gives the commands of the step that come neither from the protocol nor from a timed stimulus, and compares the whole
+/// of it.
 std::optional<std::string> Replay::follow(const RecordedEpoch& epoch, std::uint64_t step) {
   const std::vector<AppliedCommand> none;
   const auto* given = find(epoch.commands, step);
   const std::vector<AppliedCommand>& recorded = given ? *given : none;
-  for (std::size_t i = commands_.size(); i < recorded.size(); ++i) {
-    const auto command = node::toCommand(recorded[i]);
-    if (!command) return "command " + std::to_string(i + 1) + " is of no known kind or operation";
+  while (commands_.size() < recorded.size()) {  // each adds one
+    const auto command = node::toCommand(recorded[commands_.size()]);
+    if (!command) return "command " + std::to_string(commands_.size() + 1) + " is of no known kind or operation";
     run_.apply(*command);
   }
   if (auto what = compareCommands(recorded)) return what;

@@ -59,6 +59,7 @@ bool CommandQueue::isClosed() const {
 
 bool CommandQueue::replacesWaiting(const StimulusCommand& stimulus) {
   if (stimulus.operation == StimulusOperation::remove) return false;
+  if (stimulus.timing.start > 0.0) return false;  // what holds until then must not be lost
   for (auto command = waiting_.rbegin(); command != waiting_.rend(); ++command) {
     auto* earlier = std::get_if<StimulusCommand>(&*command);
     if (!earlier) return false;  // not across a control, which may look at the stimuli

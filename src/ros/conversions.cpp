@@ -76,6 +76,9 @@ void fill(AppliedCommand& message, const StimulusCommand& command) {
   message.id = command.id;
   message.vector = toVector(command.vector);
   message.strength = command.strength;
+  message.start = command.timing.start;
+  message.duration = command.timing.duration;
+  message.period = command.timing.period;
 }
 
 void fill(AppliedCommand& message, const simulation::ParameterCommand& command) {
@@ -90,21 +93,30 @@ void fill(AppliedCommand& message, const simulation::GravityCommand& command) {
   message.vector = toVector(command.acceleration);
 }
 
+void fill(AppliedCommand& message, const simulation::SpawnCommand& command) {
+  message.kind = AppliedCommand::SPAWN_ORGAN;
+  message.organ = command.organ;
+}
+
+void fill(AppliedCommand& message, const simulation::RemoveCommand& command) {
+  message.kind = AppliedCommand::REMOVE_ORGAN;
+  message.id = command.organ;
+}
+
 template <typename Xyz>
 rod::Vector3 toEigen(const Xyz& v) {
   return {v.x, v.y, v.z};
 }
 
-std::optional<StimulusCommand> makeCommand(StimulusKind kind, std::uint8_t operation, const std::string& id,
-                                           const rod::Vector3& vector, double strength) {
-  const std::optional<StimulusOperation> known = toOperation(operation);
+/// PointSource, LightDirection and AppliedCommand name what they have in common alike.
+template <typename Content>
+std::optional<StimulusCommand> makeCommand(StimulusKind kind, const Content& message, const rod::Vector3& vector) {
+  const std::optional<StimulusOperation> known = toOperation(message.operation);
   if (!known) return std::nullopt;
-  StimulusCommand command{kind, *known, id, vector, strength};
-  if (*known == StimulusOperation::remove) {
-    command.vector.setZero();  // documented as ignored, so it must not be refused either
-    command.strength = 0.0;
-  }
-  return command;
+  // What is documented as ignored must not be refused either.
+  if (*known == StimulusOperation::remove) return StimulusCommand{kind, *known, message.id, {0.0, 0.0, 0.0}, 0.0, {}};
+  return StimulusCommand{kind,   *known,           message.id,
+                         vector, message.strength, {message.start, message.duration, message.period}};
 }
 
 std::vector<geometry_msgs::Vector3> toVectors(const growth::CueFields& cues, growth::Cue cue) {
@@ -216,6 +228,24 @@ OrganState toMessage(const OrganSnapshot& organ, const Snapshot& snapshot, const
   return message;
 }
 
+ScheduledStimulus toMessage(const simulation::ScheduledStimulus& scheduled) {
+  static_assert(static_cast<int>(ScheduledStimulus::POINT_SOURCE) == static_cast<int>(AppliedCommand::POINT_SOURCE));
+  static_assert(static_cast<int>(ScheduledStimulus::LIGHT_DIRECTION) ==
+                static_cast<int>(AppliedCommand::LIGHT_DIRECTION));
+  const StimulusCommand& stimulus = scheduled.stimulus;
+  ScheduledStimulus message;
+  message.kind = toConstant(stimulus.kind);
+  message.id = stimulus.id;
+  message.vector = toVector(stimulus.vector);
+  message.strength = stimulus.strength;
+  message.begin = scheduled.begin;
+  message.duration = stimulus.timing.duration;
+  message.period = stimulus.timing.period;
+  message.is_on = scheduled.isOn();
+  message.next_switch = scheduled.nextSwitch();
+  return message;
+}
+
 Stimuli toStimuli(const Snapshot& snapshot, const std::string& frame) {
   Stimuli message;
   message.header = makeHeader(snapshot, frame);
@@ -238,6 +268,9 @@ Stimuli toStimuli(const Snapshot& snapshot, const std::string& frame) {
     light.towards = toVector(direction.towards);
     light.strength = direction.strength;
   }
+  for (const simulation::ScheduledStimulus& scheduled : snapshot.scheduled) {
+    message.scheduled.push_back(toMessage(scheduled));
+  }
   return message;
 }
 
@@ -254,13 +287,11 @@ AppliedCommand toMessage(const simulation::AppliedCommand& applied, const Snapsh
 }
 
 std::optional<StimulusCommand> toCommand(const PointSource& message) {
-  return makeCommand(StimulusKind::point_source, message.operation, message.id, toEigen(message.position),
-                     message.strength);
+  return makeCommand(StimulusKind::point_source, message, toEigen(message.position));
 }
 
 std::optional<StimulusCommand> toCommand(const LightDirection& message) {
-  return makeCommand(StimulusKind::light_direction, message.operation, message.id, toEigen(message.towards),
-                     message.strength);
+  return makeCommand(StimulusKind::light_direction, message, toEigen(message.towards));
 }
 
 StimulusCommand toCommand(const geometry_msgs::PointStamped& message) {
@@ -274,7 +305,7 @@ StimulusCommand toCommand(const geometry_msgs::Vector3Stamped& message) {
 std::optional<simulation::Command> toCommand(const AppliedCommand& message) {
   const rod::Vector3 vector = toEigen(message.vector);
   const auto stimulus = [&](StimulusKind kind) -> std::optional<simulation::Command> {
-    return makeCommand(kind, message.operation, message.id, vector, message.strength);
+    return makeCommand(kind, message, vector);
   };
   switch (message.kind) {
     case AppliedCommand::POINT_SOURCE:
@@ -285,6 +316,10 @@ std::optional<simulation::Command> toCommand(const AppliedCommand& message) {
       return simulation::ParameterCommand{message.id, message.parameter, message.value};
     case AppliedCommand::GRAVITY:
       return simulation::GravityCommand{vector};
+    case AppliedCommand::SPAWN_ORGAN:
+      return simulation::SpawnCommand{message.organ};
+    case AppliedCommand::REMOVE_ORGAN:
+      return simulation::RemoveCommand{message.id};
     default:
       return std::nullopt;
   }
@@ -295,5 +330,9 @@ simulation::ParameterCommand toCommand(const SetParameter::Request& request) {
 }
 
 simulation::GravityCommand toCommand(const SetGravity::Request& request) { return {toEigen(request.acceleration)}; }
+
+simulation::SpawnCommand toCommand(const SpawnOrgan::Request& request) { return {request.organ}; }
+
+simulation::RemoveCommand toCommand(const RemoveOrgan::Request& request) { return {request.id}; }
 
 }  // namespace sensory_growth::node

@@ -2,6 +2,7 @@
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "sensory_growth/ros/clock.h"
@@ -11,6 +12,8 @@ namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
 using diagnostic_updater::DiagnosticStatusWrapper;
+
+const std::string kOrgan = "organ ";  // begins the names of the entries of organs
 
 const char* describe(Mode mode) {
   switch (mode) {
@@ -88,15 +91,10 @@ void reportStimuli(const StimulusCounters& counters, std::uint64_t refused_befor
 }
 
 Diagnostics::Diagnostics(ros::NodeHandle node, ros::NodeHandle private_node, Sources sources)
-    : sources_(std::move(sources)), updater_(std::move(node), std::move(private_node)) {
+    : sources_(std::move(sources)), snapshot_(sources_.snapshot()), updater_(std::move(node), std::move(private_node)) {
   updater_.setHardwareID("none");
   updater_.add("simulation",
-               [this](DiagnosticStatusWrapper& status) { reportLoop(sources_.loop(), *sources_.snapshot(), status); });
-  for (std::size_t i = 0; i < sources_.organs.size(); ++i) {
-    updater_.add("organ " + sources_.organs[i], [this, i](DiagnosticStatusWrapper& status) {
-      reportRelaxation(sources_.snapshot()->organs[i], status);
-    });
-  }
+               [this](DiagnosticStatusWrapper& status) { reportLoop(sources_.loop(), *snapshot_, status); });
   updater_.add("stimuli", [this](DiagnosticStatusWrapper& status) {
     reportStimuli(*sources_.counters, refused_before_, status);
     refused_before_ = sources_.counters->refused();
@@ -106,6 +104,30 @@ Diagnostics::Diagnostics(ros::NodeHandle node, ros::NodeHandle private_node, Sou
     status.summary(DiagnosticStatus::OK, path.empty() ? "off" : "writing " + path);
   });
   if (sources_.owns_clock) updater_.add("clock", reportClock);
+  followOrgans();
+}
+
+void Diagnostics::update() {
+  snapshot_ = sources_.snapshot();
+  followOrgans();
+  updater_.force_update();
+}
+
+/// An entry for each organ there is.
+void Diagnostics::followOrgans() {
+  std::set<std::string> present;
+  for (const OrganSnapshot& organ : snapshot_->organs) present.insert(organ.id);
+  for (const std::string& organ : organs_) {
+    if (!present.count(organ)) updater_.removeByName(kOrgan + organ);
+  }
+  for (const std::string& organ : present) {
+    if (organs_.count(organ)) continue;
+    updater_.add(kOrgan + organ, [this, organ](DiagnosticStatusWrapper& status) {
+      const auto is_meant = [&organ](const OrganSnapshot& other) { return other.id == organ; };
+      reportRelaxation(*std::find_if(snapshot_->organs.begin(), snapshot_->organs.end(), is_meant), status);
+    });
+  }
+  organs_ = std::move(present);
 }
 
 }  // namespace sensory_growth::node

@@ -44,10 +44,6 @@ void checkStep(const Parameters& parameters, const simulation::Scenario& scenari
   problems.push_back(text.str());
 }
 
-std::string describeEffective(const Parameters& parameters, const std::string& node) {
-  return "node: " + node + "\nversion: " + version() + "\n" + toYaml(parameters);
-}
-
 }  // namespace
 
 LoadedScenario loadScenario(const Parameters& parameters, const std::string& node, std::vector<std::string>& problems) {
@@ -79,6 +75,10 @@ LoadedScenario parseScenario(const Parameters& parameters, Sources sources, std:
   loaded.sources.parameters = describeEffective(parameters, loaded.sources.node);
   for (const simulation::OrganScenario& organ : loaded.scenario.organs) loaded.sources.organs.push_back(organ.id);
   return loaded;
+}
+
+std::string describeEffective(const Parameters& parameters, const std::string& node) {
+  return "node: " + node + "\nversion: " + version() + "\n" + toYaml(parameters);
 }
 
 const char* version() { return SENSORY_GROWTH_VERSION; }

@@ -300,21 +300,21 @@ MarkerArray buildMarkers(const Snapshot& snapshot, const MarkerSettings& setting
   return array;
 }
 
-MarkerArray MarkerStream::next(const Snapshot& snapshot) {
-  MarkerArray built = buildMarkers(snapshot, settings_);
+MarkerArray MarkerStream::next(const Snapshot& snapshot, const MarkerSettings& settings) {
+  MarkerArray built = buildMarkers(snapshot, settings);
   std::set<std::pair<std::string, int>> drawn;
   for (const Marker& marker : built.markers) drawn.emplace(marker.ns, marker.id);
 
   MarkerArray array;
   if (epoch_ != snapshot.epoch) {
     Marker& all = array.markers.emplace_back();
-    all.header = makeHeader(snapshot, settings_.frame);
+    all.header = makeHeader(snapshot, settings.frame);
     all.action = Marker::DELETEALL;
     all.pose.orientation.w = 1.0;
   } else {
     for (const auto& [ns, id] : drawn_) {
       if (drawn.count({ns, id})) continue;
-      array.markers.push_back(makeMarker(snapshot, settings_, ns, id, Marker::SPHERE));
+      array.markers.push_back(makeMarker(snapshot, settings, ns, id, Marker::SPHERE));
       array.markers.back().action = Marker::DELETE;
     }
   }

@@ -1,6 +1,5 @@
 #include "sensory_growth/ros/node.h"
 
-#include <ros/advertise_service_options.h>
 #include <ros/console.h>
 #include <ros/init.h>
 #include <ros/master.h>
@@ -15,32 +14,12 @@
 
 #include "sensory_growth/ros/conversions.h"
 #include "sensory_growth/ros/names.h"
+#include "serve.h"
 
 namespace sensory_growth::node {
 namespace {
 
 constexpr std::chrono::milliseconds kSignalPatience{50};
-
-template <typename Response>
-void fill(const Answer& answer, Response& response) {
-  response.success = answer.success;
-  response.message = answer.message;
-  response.step_index = answer.step_index;
-  response.stamp = answer.stamp;
-}
-
-template <typename Service, typename Handler>
-ros::ServiceServer serve(ros::NodeHandle& node, const char* name, ros::CallbackQueue& queue, const Handler& handler) {
-  using Request = typename Service::Request;
-  using Response = typename Service::Response;
-  ros::AdvertiseServiceOptions options;
-  options.init<Request, Response>(node.resolveName(name), [handler](Request& request, Response& response) {
-    handler(request, response);
-    return true;  // false would hide the reason from the caller
-  });
-  options.callback_queue = &queue;
-  return node.advertiseService(options);
-}
 
 int complain(const std::vector<std::string>& problems) {
   for (const std::string& problem : problems) ROS_FATAL_STREAM_NAMED(names::kLogRos, problem);
@@ -56,11 +35,15 @@ Node::Node(const Parameters& parameters, LoadedScenario loaded)
       private_node_("~"),
       clock_(parameters.clock_mode, step_, parameters.clock_rate, node_),
       publishers_(parameters, loaded.sources, counters_, private_node_),
-      intake_(node_, private_node_, parameters.world_frame, counters_,
+      world_(parameters.world_frame),
+      intake_(node_, private_node_, world_, counters_,
               {[this](const simulation::StimulusCommand& command) { return loop_.send(command); },
                [this] { loop_.refreshStatus(); }}),
       loop_(simulation::Simulation(std::move(loaded.scenario), parameters.threads),
             {step_, parameters.real_time_factor, parameters.start_paused}, clock_, counters_, publishers_),
+      stimulus_services_(private_node_, parameters.world_frame, world_, loop_, counters_),
+      live_(parameters, private_node_, control_queue_,
+            [this](const Parameters& before, const Parameters& now) { use(before, now); }),
       topic_spinner_(1),
       control_spinner_(1, &control_queue_),
       step_spinner_(1, &step_queue_) {
@@ -75,7 +58,7 @@ Node::Node(const Parameters& parameters, LoadedScenario loaded)
   diagnostics_ = std::make_unique<Diagnostics>(
       node_, private_node_,
       Diagnostics::Sources{[this] { return loop_.snapshot(); }, [this] { return loop_.status(); },
-                           [this] { return publishers_.recordingPath(); }, loaded.sources.organs, &counters_,
+                           [this] { return publishers_.recordingPath(); }, &counters_,
                            parameters_.clock_mode == ClockMode::publish});
 }
 
@@ -84,6 +67,7 @@ Node::~Node() {
   topic_spinner_.stop();
   control_spinner_.stop();
   step_spinner_.stop();
+  stimulus_services_.stop();
   if (const auto recording = publishers_.takeRecording()) {
     const RecordingSummary summary = recording->finish();
     ROS_INFO_STREAM_NAMED(names::kLogRecording, "closed " << summary.path << ": " << summary.messages << " messages");
@@ -97,6 +81,7 @@ int Node::run(const Signals& signals) {
   topic_spinner_.start();
   control_spinner_.start();
   step_spinner_.start();
+  stimulus_services_.start();
   while (ros::ok() && !signals.wait(kSignalPatience)) {
     const RunStatus status = loop_.status();
     if (!parameters_.exit_when_finished) continue;
@@ -106,7 +91,7 @@ int Node::run(const Signals& signals) {
       return 1;
     }
   }
-  if (parameters_.progress) logProgress();
+  if (live_.now().progress) logProgress();
   return 0;
 }
 
@@ -123,9 +108,12 @@ void Node::advertiseServices() {
                                           [this](auto& q, auto& r) { fill(loop_.apply(toCommand(q)), r); }));
   services_.push_back(serve<SetGravity>(private_node_, names::kSetGravity, control_queue_,
                                         [this](auto& q, auto& r) { fill(loop_.apply(toCommand(q)), r); }));
-  services_.push_back(
-      serve<SetRealTimeFactor>(private_node_, names::kSetRealTimeFactor, control_queue_,
-                               [this](auto& q, auto& r) { fill(loop_.setRealTimeFactor(q.factor), r); }));
+  services_.push_back(serve<SetRealTimeFactor>(private_node_, names::kSetRealTimeFactor, control_queue_,
+                                               [this](auto& q, auto& r) { fill(setRealTimeFactor(q.factor), r); }));
+  services_.push_back(serve<SpawnOrgan>(private_node_, names::kSpawnOrgan, control_queue_,
+                                        [this](auto& q, auto& r) { fill(loop_.apply(toCommand(q)), r); }));
+  services_.push_back(serve<RemoveOrgan>(private_node_, names::kRemoveOrgan, control_queue_,
+                                         [this](auto& q, auto& r) { fill(loop_.apply(toCommand(q)), r); }));
   services_.push_back(serve<StartRecording>(private_node_, names::kStartRecording, control_queue_,
                                             [this](auto& q, auto& r) { startRecording(q, r); }));
   services_.push_back(serve<StopRecording>(private_node_, names::kStopRecording, control_queue_,
@@ -165,10 +153,32 @@ void Node::startTimers() {
     timers_.push_back(
         node_.createWallTimer(ros::WallDuration(interval), [action](const ros::WallTimerEvent&) { action(); }));
   };
-  every(1.0 / parameters_.marker_rate, [this] { publishers_.showMarkers(loop_.snapshot()); });
   every(0.1, [this] { clock_.keepAlive(); });
   every(1.0, [this] { diagnostics_->update(); });
-  if (parameters_.progress) every(1.0, [this] { logProgress(); });
+  every(1.0, [this] {
+    if (live_.now().progress) logProgress();
+  });
+  marker_timer_ = node_.createWallTimer(ros::WallDuration(1.0 / parameters_.marker_rate),
+                                        [this](const auto&) { publishers_.showMarkers(loop_.snapshot()); });
+}
+
+Answer Node::setRealTimeFactor(double factor) {
+  const Answer answer = loop_.setRealTimeFactor(factor);
+  if (!answer.success) return answer;
+  XmlRpc::XmlRpcValue change;
+  change["real_time_factor"] = factor;
+  live_.change(change);
+  return answer;
+}
+
+/// Takes parameters into use that have changed while the node runs.
+void Node::use(const Parameters& before, const Parameters& now) {
+  if (now.real_time_factor != loop_.status().real_time_factor) loop_.setRealTimeFactor(now.real_time_factor);
+  if (now.marker_rate != before.marker_rate) marker_timer_.setPeriod(ros::WallDuration(1.0 / now.marker_rate));
+  loop_.atBoundary([&](const Snapshot& snapshot) {
+    publishers_.setParameters(now, snapshot);
+    return std::nullopt;
+  });
 }
 
 void Node::logProgress() const {

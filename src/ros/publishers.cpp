@@ -16,15 +16,15 @@ constexpr std::uint32_t kQueue = 100;
 
 Publishers::Publishers(const Parameters& parameters, const Sources& sources, const StimulusCounters& counters,
                        ros::NodeHandle private_node)
-    : Reporter(parameters, sources, counters, [&](const std::string& name) { return private_node.resolveName(name); }),
+    : Reporter(parameters, sources, counters,
+               [private_node](const std::string& name) { return private_node.resolveName(name); }),
       node_(std::move(private_node)) {
   advertise<Status>(topics_.status, kQueue);
   advertise<Stimuli>(topics_.stimuli, kQueue);
   advertise<AppliedCommand>(topics_.applied, kQueue);
   advertise<std_msgs::String>(topics_.scenario, 1);
   advertise<std_msgs::String>(topics_.parameters, 1);
-  advertise<visualization_msgs::MarkerArray>(topics_.markers, 10);
-  for (const auto& [organ, topic] : topics_.states) advertise<OrganState>(topic, kQueue);
+  markers_publisher_ = node_.advertise<visualization_msgs::MarkerArray>(topics_.markers.name, 10, true);
 
   publish(topics_.parameters, textMessage(sources_.parameters));
   publish(topics_.scenario, textMessage(sources_.scenario));
@@ -40,14 +40,19 @@ void Publishers::onCommand(const simulation::AppliedCommand& command, const Snap
 }
 
 void Publishers::showMarkers(const SnapshotPtr& snapshot) {
-  if (snapshot == shown_) return;
-  const ros::Publisher& publisher = publishers_.at(topics_.markers.name);
+  const MarkerSettingsPtr settings = markerSettings();
+  if (snapshot == shown_ && settings == shown_settings_) return;
   // Drawn once even if nobody looks, so that there is something to latch.
-  if (shown_ && publisher.getNumSubscribers() == 0) return;
-  if (!live_markers_) live_markers_.emplace(*marker_settings_);
-  publisher.publish(boost::make_shared<const visualization_msgs::MarkerArray>(live_markers_->next(*snapshot)));
+  if (shown_ && markers_publisher_.getNumSubscribers() == 0) return;
+  markers_publisher_.publish(
+      boost::make_shared<const visualization_msgs::MarkerArray>(live_markers_.next(*snapshot, *settings)));
   shown_ = snapshot;
+  shown_settings_ = settings;
 }
+
+void Publishers::open(const Topic& topic) { advertise<OrganState>(topic, kQueue); }
+
+void Publishers::close(const Topic& topic) { publishers_.erase(topic.name); }
 
 template <typename Content>
 void Publishers::advertise(const Topic& topic, std::uint32_t queue) {
@@ -56,10 +61,10 @@ void Publishers::advertise(const Topic& topic, std::uint32_t queue) {
 
 void Publishers::publish(const Topic& topic, const Message& message) {
   if (const auto* transforms = std::get_if<boost::shared_ptr<const tf2_msgs::TFMessage>>(&message)) {
-    const bool is_static = topic.name == topics_.tf_static.name;
-    if (is_static) static_tf_broadcaster_.sendTransform((*transforms)->transforms);
-    if (!is_static) tf_broadcaster_.sendTransform((*transforms)->transforms);
-    return;
+    if (topic.name != topics_.tf_static.name) return tf_broadcaster_.sendTransform((*transforms)->transforms);
+    // A broadcaster repeats all it ever sent; only a new one leaves out what is gone.
+    static_tf_broadcaster_ = std::make_unique<tf2_ros::StaticTransformBroadcaster>();
+    return static_tf_broadcaster_->sendTransform((*transforms)->transforms);
   }
   std::visit([&](const auto& content) { publishers_.at(topic.name).publish(content); }, message);
 }

@@ -1,10 +1,12 @@
 #include "sensory_growth/ros/reporter.h"
 
+#include <algorithm>
 #include <ctime>
 #include <exception>
 #include <utility>
 
 #include "sensory_growth/ros/conversions.h"
+#include "sensory_growth/ros/loaded_scenario.h"
 #include "sensory_growth/ros/names.h"
 
 namespace sensory_growth::node {
@@ -35,11 +37,12 @@ Reporter::Reporter(const Parameters& parameters, const Sources& sources, const S
                    const Resolve& resolve)
     : parameters_(parameters),
       sources_(sources),
-      topics_(makeTopics(sources.organs, resolve)),
+      topics_(makeTopics(resolve)),
+      resolve_(resolve),
       frames_{parameters.world_frame, parameters.frame_prefix, parameters.stations},
       counters_(counters) {}
 
-Reporter::Topics Reporter::makeTopics(const std::vector<std::string>& organs, const Resolve& resolve) {
+Reporter::Topics Reporter::makeTopics(const Resolve& resolve) {
   Topics topics;
   topics.status = {resolve(names::kStatus), true};
   topics.stimuli = {resolve(names::kStimuli), true};
@@ -50,23 +53,31 @@ Reporter::Topics Reporter::makeTopics(const std::vector<std::string>& organs, co
   topics.markers = {resolve(names::kMarkers), true};
   topics.tf = {resolve(names::kTf), false};
   topics.tf_static = {resolve(names::kTfStatic), true};
-  for (const std::string& organ : organs) {
-    topics.states[organ] = {resolve(std::string(names::kOrgans) + "/" + organ + "/" + names::kState), true};
-  }
   return topics;
 }
 
 void Reporter::onState(const SnapshotPtr& snapshot) {
-  if (!marker_settings_) {
-    marker_settings_ = makeMarkerSettings(parameters_, *snapshot);
-    publish(topics_.tf_static, shared(staticTransforms(*snapshot, frames_)));
+  const bool begins = !first_ || snapshot->epoch != history_epoch_;
+  if (!first_) {
+    first_ = snapshot;
+    setMarkerSettings();
   }
-  if (snapshot->epoch != history_epoch_) {
+  if (begins) {
     history_.clear();
     history_epoch_ = snapshot->epoch;
   }
+  followOrgans(*snapshot);
+  if (begins) sendBases(*snapshot);
+  for (const OrganSnapshot& organ : snapshot->organs) sendState(organ, *snapshot);
+  sendTransforms(*snapshot);
+  recordMarkers(*snapshot);
+}
+
+void Reporter::onOrgans(const SnapshotPtr& snapshot) {
+  const std::set<std::string> fresh = followOrgans(*snapshot);
+  sendBases(*snapshot);
   for (const OrganSnapshot& organ : snapshot->organs) {
-    send(topics_.states.at(organ.id), snapshot->stamp, shared(toMessage(organ, *snapshot, parameters_.world_frame)));
+    if (fresh.count(organ.id)) sendState(organ, *snapshot);
   }
   sendTransforms(*snapshot);
   recordMarkers(*snapshot);
@@ -102,6 +113,13 @@ void Reporter::onStatus(const RunStatus& status, const Snapshot& snapshot) {
   send(topics_.status, snapshot.stamp, shared(std::move(message)));
 }
 
+void Reporter::setParameters(const Parameters& parameters, const Snapshot& snapshot) {
+  parameters_ = parameters;
+  sources_.parameters = describeEffective(parameters_, sources_.node);
+  setMarkerSettings();
+  send(topics_.parameters, snapshot.stamp, textMessage(sources_.parameters));
+}
+
 std::optional<std::string> Reporter::startRecording(const std::string& file, const Snapshot& snapshot) {
   if (recording_) return "already recording " + recording_->path();
   try {
@@ -127,6 +145,47 @@ std::string Reporter::recordingPath() const {
   return recording_path_;
 }
 
+MarkerSettingsPtr Reporter::markerSettings() const {
+  const std::lock_guard<std::mutex> lock(markers_mutex_);
+  return marker_settings_;
+}
+
+void Reporter::setMarkerSettings() {
+  auto settings = std::make_shared<const MarkerSettings>(makeMarkerSettings(parameters_, *first_));
+  const std::lock_guard<std::mutex> lock(markers_mutex_);
+  marker_settings_ = std::move(settings);
+}
+
+/// Opens and closes topics as organs came and went. Returns the ids of those that came.
+std::set<std::string> Reporter::followOrgans(const Snapshot& snapshot) {
+  std::set<std::string> present, fresh;
+  for (const OrganSnapshot& organ : snapshot.organs) present.insert(organ.id);
+  for (auto state = states_.begin(); state != states_.end();) {
+    if (present.count(state->first)) {
+      ++state;
+    } else {
+      close(state->second);
+      state = states_.erase(state);
+    }
+  }
+  for (const std::string& organ : present) {
+    if (states_.count(organ)) continue;
+    const Topic topic{resolve_(std::string(names::kOrgans) + "/" + organ + "/" + names::kState), true};
+    states_.emplace(organ, topic);
+    open(topic);
+    fresh.insert(organ);
+  }
+  return fresh;
+}
+
+void Reporter::sendBases(const Snapshot& snapshot) {
+  send(topics_.tf_static, snapshot.stamp, shared(staticTransforms(snapshot, frames_)));
+}
+
+void Reporter::sendState(const OrganSnapshot& organ, const Snapshot& snapshot) {
+  send(states_.at(organ.id), snapshot.stamp, shared(toMessage(organ, snapshot, parameters_.world_frame)));
+}
+
 Message Reporter::textMessage(const std::string& text) {
   std_msgs::String message;
   message.data = text;
@@ -144,9 +203,16 @@ void Reporter::record(const Topic& topic, const ros::Time& stamp, const Message&
 }
 
 void Reporter::sendTransforms(const Snapshot& snapshot) {
-  if (snapshot.stamp <= last_tf_stamp_) return;  // tf2 warns about repeated stamps
+  if (snapshot.stamp < last_tf_stamp_) return;
+  if (snapshot.stamp > last_tf_stamp_) frames_sent_.clear();
   last_tf_stamp_ = snapshot.stamp;
-  send(topics_.tf, snapshot.stamp, shared(movingTransforms(snapshot, frames_)));
+  tf2_msgs::TFMessage message = movingTransforms(snapshot, frames_);
+  const auto is_sent = [this](const geometry_msgs::TransformStamped& transform) {
+    return !frames_sent_.insert(transform.child_frame_id).second;  // tf2 warns about repeated stamps
+  };
+  auto& transforms = message.transforms;
+  transforms.erase(std::remove_if(transforms.begin(), transforms.end(), is_sent), transforms.end());
+  if (!transforms.empty()) send(topics_.tf, snapshot.stamp, shared(std::move(message)));
 }
 
 void Reporter::recordPreamble(const Snapshot& snapshot) {
@@ -157,7 +223,7 @@ void Reporter::recordPreamble(const Snapshot& snapshot) {
   for (const auto& command : history_) record(topics_.applied, snapshot.stamp, command);
   record(topics_.stimuli, snapshot.stamp, shared(toStimuli(snapshot, parameters_.world_frame)));
   for (const OrganSnapshot& organ : snapshot.organs) {
-    record(topics_.states.at(organ.id), snapshot.stamp, shared(toMessage(organ, snapshot, parameters_.world_frame)));
+    record(states_.at(organ.id), snapshot.stamp, shared(toMessage(organ, snapshot, parameters_.world_frame)));
   }
   record(topics_.tf, snapshot.stamp, shared(movingTransforms(snapshot, frames_)));
   recordMarkers(snapshot);
@@ -166,9 +232,9 @@ void Reporter::recordPreamble(const Snapshot& snapshot) {
 void Reporter::recordMarkers(const Snapshot& snapshot) {
   if (!recording_ || parameters_.recording_marker_every == 0) return;
   const bool is_first = !recorded_markers_;
-  if (is_first) recorded_markers_.emplace(*marker_settings_);
+  if (is_first) recorded_markers_.emplace();
   if (!is_first && snapshot.step_index % static_cast<std::uint64_t>(parameters_.recording_marker_every) != 0) return;
-  record(topics_.markers, snapshot.stamp, shared(recorded_markers_->next(snapshot)));
+  record(topics_.markers, snapshot.stamp, shared(recorded_markers_->next(snapshot, *markerSettings())));
 }
 
 void Reporter::dropFailedRecording() {

@@ -16,6 +16,11 @@ simulation::StepReport stepGuarded(simulation::Simulation& simulation) {
   }
 }
 
+bool changesOrgans(const simulation::Command& command) {
+  return std::holds_alternative<simulation::SpawnCommand>(command) ||
+         std::holds_alternative<simulation::RemoveCommand>(command);
+}
+
 }  // namespace
 
 Run::Run(simulation::Simulation simulation, Stamps next_stamp, StimulusCounters& counters, RunListener& listener,
@@ -45,7 +50,11 @@ simulation::AppliedCommand Run::apply(const simulation::Command& command) {
   simulation::AppliedCommand applied = simulation_.apply(command);
   showApplied();
   setSnapshot(snapshot_->stamp);
-  listener_.onStimuli(*snapshot_);
+  if (applied.refusal.empty() && changesOrgans(command)) {
+    listener_.onOrgans(snapshot_);
+  } else {
+    listener_.onStimuli(*snapshot_);
+  }
   return applied;
 }
 

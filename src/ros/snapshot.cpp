@@ -15,6 +15,7 @@ SnapshotPtr takeSnapshot(const simulation::Simulation& simulation, const ros::Ti
   snapshot->checksum = simulation::checksum(simulation);
   snapshot->gravity = simulation.gravity();
   snapshot->environment = simulation.environment();
+  snapshot->scheduled = simulation.schedule().entries();
   snapshot->organs.reserve(simulation.organs().size());
   for (std::size_t i = 0; i < simulation.organs().size(); ++i) {
     const simulation::Organ& organ = simulation.organs()[i];

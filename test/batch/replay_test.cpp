@@ -63,6 +63,18 @@ class ReplayTest : public InFolder {
   }
 };
 
+const std::string kOrgan = R"(id: late
+base: {position: [5 cm, 0 m, 0 m], direction: [0, 0, 1]}
+length: 20 mm
+elements: 10
+radius: 0.8 mm
+material: {young_modulus: 10 MPa, poisson_ratio: 0.5, density: 1000 kg/m^3}
+growth: {profile: apical_flat, rate: 0.6 1/h, zone_length: 15 mm}
+sensitivities: {gravity: 0.4, light_direction: 0.8, point_source: 0.8, softening_length: 1 mm}
+proprioception: {intrinsic_length: 8 mm}
+division: {longest_element: 3 mm}
+)";
+
 // In epoch 0 the sun; in epoch 1 the sun, the lamp, nobody, the sun's end, the parameter, gravity and the lamp's end.
 constexpr std::size_t kCommands = 8;
 constexpr std::size_t kLamp = 2, kNobody = 3, kSunEnds = 4, kParameter = 5, kGravity = 6;
@@ -74,6 +86,38 @@ TEST_F(ReplayTest, IsEqualOnEveryStep) {
   const auto original = contentsOf(path("run.bag")), again = contentsOf(path("again.bag"));
   for (const auto& [topic, content] : original) EXPECT_TRUE(again.count(topic) && again.at(topic) == content) << topic;
   EXPECT_EQ(again.size(), original.size());
+}
+
+TEST_F(ReplayTest, IsEqualAlsoIfOrgansComeAndGoAndLampsFlash) {
+  node::Parameters parameters;
+  parameters.scenario = kShoot;
+  parameters.growth_time_scale = 60.0;
+  recordTo(path("organs.bag"), parameters);
+  std::vector<std::string> problems;
+  BatchRun run(parameters, node::loadScenario(parameters, "/sensory_growth", problems), [](const node::Message&) {});
+  const auto set = [&](StimulusOperation operation, double start, double duration, double period) {
+    run.apply(StimulusCommand{
+        StimulusKind::point_source, operation, "flash", {0.05, 0.0, 0.05}, 0.75, {start, duration, period}});
+  };
+  set(StimulusOperation::add, 0.0, 60.0, 120.0);  // on at once
+  takeSteps(run, 3);
+  run.apply(simulation::SpawnCommand{kOrgan});
+  takeSteps(run, 3);
+  run.apply(simulation::SpawnCommand{kOrgan});  // refused
+  set(StimulusOperation::change, 90.0, 60.0, 0.0);
+  takeSteps(run, 5);
+  run.apply(simulation::RemoveCommand{"shoot"});
+  run.apply(simulation::RemoveCommand{"late"});
+  run.apply(simulation::SpawnCommand{kOrgan});  // with frames that moved at the same stamp before
+  takeSteps(run, 3);
+  run.reset();
+  takeSteps(run, 2);
+  EXPECT_EQ(run.finish()->error, "");
+
+  const Outcome outcome = call({"replay", path("organs.bag"), "--bag", path("again.bag"), "--csv", path("csv")});
+  ASSERT_EQ(outcome.code, kOk) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr(": all 18 states compared are equal"));  // 0 to 14 and 0 to 2
+  EXPECT_EQ(contentsOf(path("organs.bag")), contentsOf(path("again.bag")));
 }
 
 TEST_F(ReplayTest, CanBeReplayed) {

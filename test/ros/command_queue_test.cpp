@@ -41,6 +41,15 @@ TEST(CommandQueue, KeepsTheLastOfAFlood) {
   EXPECT_EQ(stimulus(commands[0]).operation, StimulusOperation::add);  // else the lamp would never have been added
 }
 
+TEST(CommandQueue, KeepsWhatHoldsUntilATimedStimulusBegins) {
+  CommandQueue queue(10);
+  queue.push(lamp("a", StimulusOperation::add, 1.0));
+  StimulusCommand later = lamp("a", StimulusOperation::change, 2.0);
+  later.timing.start = 60.0;
+  queue.push(later);
+  EXPECT_EQ(queue.take().size(), 2u);
+}
+
 TEST(CommandQueue, DoesNotMergeAcrossARemovalOrAControl) {
   CommandQueue queue(10);
   queue.push(lamp("a", StimulusOperation::add, 1.0));

@@ -217,8 +217,60 @@ TEST(AppliedCommandMessage, NeedsAKnownKindAndOperation) {
   EXPECT_FALSE(toCommand(message));
   message.operation = AppliedCommand::ADD;
   EXPECT_TRUE(toCommand(message));
-  message.kind = 5;
+  message.kind = 255;
   EXPECT_FALSE(toCommand(message));
+}
+
+/// What becomes of a command that is echoed and read again.
+simulation::Command echoed(const simulation::Command& command) {
+  const simulation::AppliedCommand applied{3, command, ""};
+  const auto again = toCommand(toMessage(applied, *testing::snapshotOf("stem"), "world"));
+  EXPECT_TRUE(again);
+  return *again;
+}
+
+TEST(Command, WithTimesSurvivesItsEcho) {
+  LightDirection message;
+  message.operation = LightDirection::ADD;
+  message.id = "flash";
+  message.towards.x = 1.0;
+  message.start = 1.0;
+  message.duration = 2.0;
+  message.period = 3.0;
+  const auto again = std::get<simulation::StimulusCommand>(echoed(*toCommand(message)));
+  EXPECT_EQ(again.timing.start, 1.0);
+  EXPECT_EQ(again.timing.duration, 2.0);
+  EXPECT_EQ(again.timing.period, 3.0);
+}
+
+TEST(Command, OnAnOrganSurvivesItsEcho) {
+  EXPECT_EQ(std::get<simulation::SpawnCommand>(echoed(simulation::SpawnCommand{"id: a\n"})).organ, "id: a\n");
+  EXPECT_EQ(std::get<simulation::RemoveCommand>(echoed(simulation::RemoveCommand{"a"})).organ, "a");
+}
+
+TEST(StimuliMessage, TellsWhatWillBeSwitched) {
+  const auto snapshot = testing::snapshotOf("stem");
+  simulation::ScheduledStimulus flash;
+  flash.stimulus = {simulation::StimulusKind::point_source,
+                    simulation::StimulusOperation::add,
+                    "flash",
+                    {1, 2, 3},
+                    -1.0,
+                    {10.0, 20.0, 50.0}};
+  flash.begin = 100.0;
+  flash.switches = 3;
+  snapshot->scheduled = {flash};
+  const Stimuli message = toStimuli(*snapshot, "world");
+  ASSERT_THAT(message.scheduled, SizeIs(1));
+  EXPECT_EQ(message.scheduled[0].kind, ScheduledStimulus::POINT_SOURCE);
+  EXPECT_EQ(message.scheduled[0].id, "flash");
+  EXPECT_EQ(message.scheduled[0].vector.z, 3.0);
+  EXPECT_EQ(message.scheduled[0].strength, -1.0);
+  EXPECT_EQ(message.scheduled[0].begin, 100.0);
+  EXPECT_EQ(message.scheduled[0].duration, 20.0);
+  EXPECT_EQ(message.scheduled[0].period, 50.0);
+  EXPECT_TRUE(message.scheduled[0].is_on);
+  EXPECT_EQ(message.scheduled[0].next_switch, 170.0);
 }
 
 }  // namespace

@@ -129,24 +129,25 @@ TEST(Markers, WallsSpringsAndHeldApexAreWhereTheyHold) {
 }
 
 TEST(MarkerStream, DeletesWhatIsGoneAndStartsAfreshAfterAReset) {
-  MarkerStream stream(settingsOf(MarkerShape::tube));
+  MarkerStream stream;
+  const MarkerSettings settings = settingsOf(MarkerShape::tube);
   auto snapshot = lit();
-  const MarkerArray first = stream.next(*snapshot);
+  const MarkerArray first = stream.next(*snapshot, settings);
   EXPECT_EQ(first.markers.front().action, Marker::DELETEALL);
   EXPECT_THAT(testing::lint(first), IsEmpty());
 
   snapshot->environment.point_sources.clear();
-  const MarkerArray second = stream.next(*snapshot);
+  const MarkerArray second = stream.next(*snapshot, settings);
   EXPECT_EQ(find(second, "point_source/lamp", 0).action, Marker::DELETE);
   EXPECT_EQ(find(second, "point_source/lamp", 1).action, Marker::DELETE);
   EXPECT_EQ(find(second, "light_direction/sun").action, Marker::ADD);
   EXPECT_THAT(testing::lint(second), IsEmpty());
 
-  const MarkerArray third = stream.next(*snapshot);
+  const MarkerArray third = stream.next(*snapshot, settings);
   for (const Marker& marker : third.markers) EXPECT_EQ(marker.action, Marker::ADD) << marker.ns;
 
   snapshot->epoch = 1;
-  EXPECT_EQ(stream.next(*snapshot).markers.front().action, Marker::DELETEALL);
+  EXPECT_EQ(stream.next(*snapshot, settings).markers.front().action, Marker::DELETEALL);
 }
 
 TEST(Viridis, GrowsLighter) {

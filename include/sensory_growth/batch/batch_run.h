@@ -47,6 +47,8 @@ class BatchRun {
     std::optional<node::RecordingSummary> failure;
 
    private:
+    void open(const Topic&) override {}
+    void close(const Topic&) override {}
     void publish(const Topic& topic, const node::Message& message) override;
     void warn(const node::RecordingSummary& summary) override { failure = summary; }
 

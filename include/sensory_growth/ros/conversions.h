@@ -17,8 +17,11 @@
 #include "sensory_growth/OrganState.h"
 #include "sensory_growth/PointSource.h"
 #include "sensory_growth/Relaxation.h"
+#include "sensory_growth/RemoveOrgan.h"
+#include "sensory_growth/ScheduledStimulus.h"
 #include "sensory_growth/SetGravity.h"
 #include "sensory_growth/SetParameter.h"
+#include "sensory_growth/SpawnOrgan.h"
 #include "sensory_growth/Stimuli.h"
 #include "sensory_growth/rod/rod.h"
 #include "sensory_growth/ros/snapshot.h"
@@ -37,8 +40,12 @@ std_msgs::Header makeHeader(const Snapshot& snapshot, const std::string& frame);
 
 Relaxation toMessage(const simulation::OrganReport& report);
 OrganState toMessage(const OrganSnapshot& organ, const Snapshot& snapshot, const std::string& frame);
+ScheduledStimulus toMessage(const simulation::ScheduledStimulus& scheduled);
 Stimuli toStimuli(const Snapshot& snapshot, const std::string& frame);
 AppliedCommand toMessage(const simulation::AppliedCommand& applied, const Snapshot& snapshot, const std::string& frame);
+
+/// What to say of a message without an operation.
+inline constexpr char kNoOperation[] = "operation must be ADD (1), CHANGE (2) or REMOVE (3)";
 
 /// Nothing if the operation is none of ADD, CHANGE and REMOVE. The vector stays in the frame of the message.
 std::optional<simulation::StimulusCommand> toCommand(const PointSource& message);
@@ -55,5 +62,7 @@ simulation::StimulusCommand toCommand(const geometry_msgs::Vector3Stamped& messa
 
 simulation::ParameterCommand toCommand(const SetParameter::Request& request);
 simulation::GravityCommand toCommand(const SetGravity::Request& request);
+simulation::SpawnCommand toCommand(const SpawnOrgan::Request& request);
+simulation::RemoveCommand toCommand(const RemoveOrgan::Request& request);
 
 }  // namespace sensory_growth::node

@@ -6,8 +6,8 @@
 #include <ros/node_handle.h>
 
 #include <functional>
+#include <set>
 #include <string>
-#include <vector>
 
 #include "sensory_growth/ros/simulation_loop.h"
 #include "sensory_growth/ros/snapshot.h"
@@ -31,7 +31,6 @@ class Diagnostics {
     std::function<SnapshotPtr()> snapshot;
     std::function<RunStatus()> loop;
     std::function<std::string()> recording;  ///< path of the open bag, or empty
-    std::vector<std::string> organs;
     const StimulusCounters* counters = nullptr;
     bool owns_clock = false;
   };
@@ -39,10 +38,14 @@ class Diagnostics {
   Diagnostics(ros::NodeHandle node, ros::NodeHandle private_node, Sources sources);
 
   /// Publishes now; called by a wall timer, because diagnostic_updater itself would wait for ROS time (ros.md 52).
-  void update() { updater_.force_update(); }
+  void update();
 
  private:
+  void followOrgans();
+
   Sources sources_;
+  SnapshotPtr snapshot_;  // that is being reported
+  std::set<std::string> organs_;
   std::uint64_t refused_before_ = 0;
   diagnostic_updater::Updater updater_;
 };

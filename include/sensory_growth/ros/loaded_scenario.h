@@ -25,6 +25,9 @@ LoadedScenario loadScenario(const Parameters& parameters, const std::string& nod
 /// `sources`.
 LoadedScenario parseScenario(const Parameters& parameters, Sources sources, std::vector<std::string>& problems);
 
+/// Name, version and parameters of a node in YAML.
+std::string describeEffective(const Parameters& parameters, const std::string& node);
+
 /// Of this package; bags are marked with it.
 const char* version();
 

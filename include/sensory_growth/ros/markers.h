@@ -5,6 +5,7 @@
 
 #include <visualization_msgs/MarkerArray.h>
 
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -25,6 +26,8 @@ struct MarkerSettings {
   double scene_size = 0.0;     ///< of the longest organ at the start: light arrows begin so far from the tips [m]
 };
 
+using MarkerSettingsPtr = std::shared_ptr<const MarkerSettings>;
+
 /// Settings that fit the organs of `first`, the state at the start.
 MarkerSettings makeMarkerSettings(const Parameters& parameters, const Snapshot& first);
 
@@ -34,12 +37,9 @@ visualization_msgs::MarkerArray buildMarkers(const Snapshot& snapshot, const Mar
 /// One stream of marker arrays: what is gone is deleted, and after a reset everything is drawn afresh.
 class MarkerStream {
  public:
-  explicit MarkerStream(MarkerSettings settings) : settings_(std::move(settings)) {}
-
-  visualization_msgs::MarkerArray next(const Snapshot& snapshot);
+  visualization_msgs::MarkerArray next(const Snapshot& snapshot, const MarkerSettings& settings);
 
  private:
-  MarkerSettings settings_;
   std::optional<std::uint32_t> epoch_;
   std::set<std::pair<std::string, int>> drawn_;
 };

@@ -25,6 +25,11 @@ inline constexpr char kProtocol[] = "protocol";
 inline constexpr char kParameters[] = "parameters";
 inline constexpr char kMarkers[] = "markers";
 
+// Topics and service of the protocol of dynamic_reconfigure, which prescribes their names.
+inline constexpr char kParameterDescriptions[] = "parameter_descriptions";
+inline constexpr char kParameterUpdates[] = "parameter_updates";
+inline constexpr char kSetParameters[] = "set_parameters";
+
 // Absolute topics out.
 inline constexpr char kClock[] = "/clock";
 inline constexpr char kTf[] = "/tf";
@@ -37,6 +42,11 @@ inline constexpr char kReset[] = "reset";
 inline constexpr char kStep[] = "step";
 inline constexpr char kSetParameter[] = "set_parameter";
 inline constexpr char kSetGravity[] = "set_gravity";
+inline constexpr char kSpawnOrgan[] = "spawn_organ";
+inline constexpr char kRemoveOrgan[] = "remove_organ";
+inline constexpr char kSetPointSource[] = "set_point_source";
+inline constexpr char kSetLightDirection[] = "set_light_direction";
+inline constexpr char kListStimuli[] = "list_stimuli";
 inline constexpr char kSetRealTimeFactor[] = "set_real_time_factor";
 inline constexpr char kStartRecording[] = "start_recording";
 inline constexpr char kStopRecording[] = "stop_recording";

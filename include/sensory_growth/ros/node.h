@@ -12,14 +12,17 @@
 #include <vector>
 
 #include "sensory_growth/Command.h"
+#include "sensory_growth/RemoveOrgan.h"
 #include "sensory_growth/SetGravity.h"
 #include "sensory_growth/SetParameter.h"
 #include "sensory_growth/SetRealTimeFactor.h"
+#include "sensory_growth/SpawnOrgan.h"
 #include "sensory_growth/StartRecording.h"
 #include "sensory_growth/Step.h"
 #include "sensory_growth/StopRecording.h"
 #include "sensory_growth/ros/clock.h"
 #include "sensory_growth/ros/diagnostics.h"
+#include "sensory_growth/ros/live_parameters.h"
 #include "sensory_growth/ros/loaded_scenario.h"
 #include "sensory_growth/ros/parameters.h"
 #include "sensory_growth/ros/publishers.h"
@@ -27,6 +30,8 @@
 #include "sensory_growth/ros/simulation_loop.h"
 #include "sensory_growth/ros/stimulus_counters.h"
 #include "sensory_growth/ros/stimulus_intake.h"
+#include "sensory_growth/ros/stimulus_services.h"
+#include "sensory_growth/ros/world_frame.h"
 
 namespace sensory_growth::node {
 
@@ -46,6 +51,8 @@ class Node {
   void stopRecording(StopRecording::Response& response);
   void advertiseServices();
   void startTimers();
+  Answer setRealTimeFactor(double factor);
+  void use(const Parameters& before, const Parameters& now);
   void logProgress() const;
 
   const Parameters parameters_;
@@ -59,11 +66,15 @@ class Node {
   StimulusCounters counters_;
   Clock clock_;
   Publishers publishers_;
-  StimulusIntake intake_;  // before the loop, so that it hears the transforms of the first state
+  WorldFrame world_;  // before the loop, so that it hears the transforms of the first state
+  StimulusIntake intake_;
   SimulationLoop loop_;
+  StimulusServices stimulus_services_;
+  LiveParameters live_;
   std::unique_ptr<Diagnostics> diagnostics_;
   std::vector<ros::ServiceServer> services_;
   std::vector<ros::WallTimer> timers_;
+  ros::WallTimer marker_timer_;
   ros::AsyncSpinner topic_spinner_, control_spinner_, step_spinner_;
 };
 

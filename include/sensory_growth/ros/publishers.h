@@ -9,7 +9,7 @@
 
 #include <cstdint>
 #include <map>
-#include <optional>
+#include <memory>
 #include <string>
 
 #include "sensory_growth/ros/reporter.h"
@@ -24,24 +24,28 @@ class Publishers : public Reporter {
 
   void onCommand(const simulation::AppliedCommand& command, const Snapshot& snapshot) override;
 
-  /// Publishes the markers of `snapshot` if anybody looks and they are new. From one thread, any.
+  /// Publishes the markers of `snapshot` if anybody looks and they or their looks are new. From one thread, any.
   void showMarkers(const SnapshotPtr& snapshot);
 
  private:
   template <typename Content>
   void advertise(const Topic& topic, std::uint32_t queue);
 
+  void open(const Topic& topic) override;
+  void close(const Topic& topic) override;
   void publish(const Topic& topic, const Message& message) override;
   void warn(const RecordingSummary& summary) override;
 
   ros::NodeHandle node_;
   tf2_ros::TransformBroadcaster tf_broadcaster_;
-  tf2_ros::StaticTransformBroadcaster static_tf_broadcaster_;
-  std::map<std::string, ros::Publisher> publishers_;  // by topic
+  std::unique_ptr<tf2_ros::StaticTransformBroadcaster> static_tf_broadcaster_;
+  std::map<std::string, ros::Publisher> publishers_;  // by topic, but for markers
 
   // Of the thread that calls showMarkers() alone.
-  std::optional<MarkerStream> live_markers_;
+  ros::Publisher markers_publisher_;
+  MarkerStream live_markers_;
   SnapshotPtr shown_;
+  MarkerSettingsPtr shown_settings_;
 };
 
 }  // namespace sensory_growth::node

@@ -12,6 +12,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -55,9 +56,13 @@ class Reporter : public RunListener {
            const Resolve& resolve);
 
   void onState(const SnapshotPtr& snapshot) override;
+  void onOrgans(const SnapshotPtr& snapshot) override;
   void onCommand(const simulation::AppliedCommand& command, const Snapshot& snapshot) override;
   void onStimuli(const Snapshot& snapshot) override;
   void onStatus(const RunStatus& status, const Snapshot& snapshot) override;
+
+  /// Goes on with other parameters for markers and says so. On the thread of the run.
+  void setParameters(const Parameters& parameters, const Snapshot& snapshot);
 
   /// Opens a bag and writes what is needed to run the same again. On the thread of the run. `file` may be empty.
   /// Returns why it failed, or nothing.
@@ -77,8 +82,11 @@ class Reporter : public RunListener {
 
   struct Topics {
     Topic status, stimuli, applied, scenario, protocol, parameters, markers, tf, tf_static;
-    std::map<std::string, Topic> states;  // by organ
   };
+
+  /// Called before the first message on the topic of an organ, and when the organ is gone.
+  virtual void open(const Topic& topic) = 0;
+  virtual void close(const Topic& topic) = 0;
 
   /// Called on the thread of the run with every message but the markers, once.
   virtual void publish(const Topic& topic, const Message& message) = 0;
@@ -88,15 +96,21 @@ class Reporter : public RunListener {
 
   static Message textMessage(const std::string& text);
 
-  const Parameters parameters_;
-  const Sources sources_;
+  /// How markers look at present; null before the first state. From any thread.
+  MarkerSettingsPtr markerSettings() const;
+
+  Parameters parameters_;  // of the run's thread alone
+  Sources sources_;        // the same
   const Topics topics_;
-  std::optional<MarkerSettings> marker_settings_;  // set with the first state, constant afterwards
 
  private:
-  static Topics makeTopics(const std::vector<std::string>& organs, const Resolve& resolve);
+  static Topics makeTopics(const Resolve& resolve);
+  std::set<std::string> followOrgans(const Snapshot& snapshot);
+  void setMarkerSettings();
+  void sendState(const OrganSnapshot& organ, const Snapshot& snapshot);
   void send(const Topic& topic, const ros::Time& stamp, const Message& message);
   void record(const Topic& topic, const ros::Time& stamp, const Message& message);
+  void sendBases(const Snapshot& snapshot);
   void sendTransforms(const Snapshot& snapshot);
   void recordPreamble(const Snapshot& snapshot);
   void recordMarkers(const Snapshot& snapshot);
@@ -104,18 +118,25 @@ class Reporter : public RunListener {
   void setRecording(std::unique_ptr<Recording> recording);
   std::string datedFile() const;
 
+  const Resolve resolve_;
   const FrameSettings frames_;
   const StimulusCounters& counters_;
 
   // Of the run's thread alone.
+  SnapshotPtr first_;                    // state at the start
+  std::map<std::string, Topic> states_;  // by organ
   std::unique_ptr<Recording> recording_;
   std::optional<MarkerStream> recorded_markers_;
   std::vector<Message> history_;  // commands since the last reset
   std::uint32_t history_epoch_ = 0;
   ros::Time last_tf_stamp_;
+  std::set<std::string> frames_sent_;  // with that stamp
 
   mutable std::mutex path_mutex_;
   std::string recording_path_;
+
+  mutable std::mutex markers_mutex_;
+  MarkerSettingsPtr marker_settings_;
 };
 
 }  // namespace sensory_growth::node

@@ -39,10 +39,13 @@ class RunListener {
   /// A new state: the first, after a step, or after a reset.
   virtual void onState(const SnapshotPtr& snapshot) = 0;
 
+  /// Organs came or went while this state was current; those of `snapshot` are there now.
+  virtual void onOrgans(const SnapshotPtr& snapshot) = 0;
+
   /// A command was taken while the state of `snapshot` was current.
   virtual void onCommand(const simulation::AppliedCommand& command, const Snapshot& snapshot) = 0;
 
-  /// Gravity and the stimuli in force are those of `snapshot`.
+  /// Gravity and the stimuli in force and to come are those of `snapshot`.
   virtual void onStimuli(const Snapshot& snapshot) = 0;
 
   virtual void onStatus(const RunStatus& status, const Snapshot& snapshot) = 0;

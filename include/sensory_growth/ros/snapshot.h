@@ -35,6 +35,7 @@ struct Snapshot {
   std::uint64_t checksum = 0;                   ///< of the state (simulation/checksum.h)
   rod::Vector3 gravity = rod::Vector3::Zero();  ///< [m/s^2]
   growth::Environment environment;
+  std::vector<simulation::ScheduledStimulus> scheduled;
   std::vector<OrganSnapshot> organs;
 };
 

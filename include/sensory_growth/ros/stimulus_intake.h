@@ -4,13 +4,10 @@
 /// counted and reported.
 
 #include <geometry_msgs/PointStamped.h>
-#include <geometry_msgs/TransformStamped.h>
 #include <geometry_msgs/Vector3Stamped.h>
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
 #include <ros/wall_timer.h>
-#include <tf2/buffer_core.h>
-#include <tf2_ros/transform_listener.h>
 
 #include <chrono>
 #include <deque>
@@ -22,6 +19,7 @@
 #include "sensory_growth/PointSource.h"
 #include "sensory_growth/ros/stimulus_counters.h"
 #include "sensory_growth/ros/wall_throttle.h"
+#include "sensory_growth/ros/world_frame.h"
 #include "sensory_growth/simulation/stimuli.h"
 
 namespace sensory_growth::node {
@@ -34,8 +32,8 @@ class StimulusIntake {
     std::function<void()> refused;                                 ///< called after each refusal
   };
 
-  /// `counters` must outlive the intake.
-  StimulusIntake(ros::NodeHandle node, ros::NodeHandle private_node, std::string world_frame,
+  /// `world` and `counters` must outlive the intake.
+  StimulusIntake(ros::NodeHandle node, ros::NodeHandle private_node, const WorldFrame& world,
                  StimulusCounters& counters, Outputs outputs);
 
  private:
@@ -48,18 +46,14 @@ class StimulusIntake {
 
   void receive(const std::optional<simulation::StimulusCommand>& command, const std_msgs::Header& header);
   void drain();
-  geometry_msgs::TransformStamped transformOf(const std_msgs::Header& header, bool is_overdue) const;
-  bool toWorld(const Waiting& waiting, simulation::StimulusCommand& command, std::string& why_not) const;
   void refuse(StimulusFate fate, const std::string& why);
 
-  const std::string world_frame_;
+  const WorldFrame& world_;
   StimulusCounters& counters_;
   const Outputs outputs_;
   std::deque<Waiting> waiting_;  // oldest first
   WallThrottle warnings_;
 
-  tf2::BufferCore transforms_;
-  tf2_ros::TransformListener listener_;
   ros::Subscriber point_source_, light_direction_, clicked_point_, sun_;
   ros::WallTimer retry_;
 };
