@@ -61,7 +61,7 @@ TEST(Namespaces, EveryTopicCanBeRemapped) {
     }
   }
   topics.erase("/rosout");
-  EXPECT_EQ(topics.size(), 14u);
+  EXPECT_EQ(topics.size(), 21u);
   for (const std::string& topic : topics) EXPECT_EQ(topic.rfind("/elsewhere/", 0), 0u) << topic;
 
   // Whoever comes late gets all that is latched, wherever it is.

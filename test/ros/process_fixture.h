@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <ros/ros.h>
+#include <std_msgs/String.h>
 #include <unistd.h>
 
 #include <cstdlib>

@@ -46,7 +46,9 @@ TEST_F(RecorderTest, PartsFollowEachOther) {
   ASSERT_FALSE(recorder.start("run.bag"));
   int message = 0;
   for (int part = 0; part < 3; ++part) {
-    if (part > 0) ASSERT_FALSE(recorder.split());
+    if (part > 0) {
+      ASSERT_FALSE(recorder.split());
+    }
     for (int i = 0; i <= part; ++i) write(recorder, message++);
   }
   EXPECT_EQ(recorder.path(), directory_ / "run_2.bag");

@@ -19,19 +19,21 @@ constexpr int kSteps = 3;
 void expectClean(const std::string& file) {
   simulation::Simulation simulation(simulation::loadScenario(file));
   const SnapshotPtr first = takeSnapshot(simulation, ros::Time(1), 0);
-  std::vector<MarkerStream> streams;
+  std::vector<std::pair<MarkerSettings, MarkerStream>> streams;
   for (const MarkerField field : {MarkerField::curvature, MarkerField::growth_rate, MarkerField::stress,
                                   MarkerField::stretch, MarkerField::age, MarkerField::none}) {
     for (const MarkerShape shape : {MarkerShape::tube, MarkerShape::line}) {
       Parameters parameters;
       parameters.marker_color = field;
       parameters.marker_style = shape;
-      streams.emplace_back(makeMarkerSettings(parameters, *first));
+      streams.emplace_back(makeMarkerSettings(parameters, *first), MarkerStream());
     }
   }
   for (int step = 0; step <= kSteps; ++step) {
     const SnapshotPtr snapshot = takeSnapshot(simulation, ros::Time(1 + step), 0);
-    for (MarkerStream& stream : streams) EXPECT_THAT(testing::lint(stream.next(*snapshot)), ::testing::IsEmpty());
+    for (auto& [settings, stream] : streams) {
+      EXPECT_THAT(testing::lint(stream.next(*snapshot, settings)), ::testing::IsEmpty());
+    }
     const simulation::StepReport report = simulation.step();
     ASSERT_TRUE(report.ok) << report.message;
   }
