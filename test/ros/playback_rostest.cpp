@@ -16,7 +16,7 @@
 namespace sensory_growth::node::testing {
 namespace {
 
-constexpr std::chrono::seconds kLaunchPatience{30};
+constexpr std::chrono::seconds kLaunchPatience{45};
 constexpr char kStates[] = "/sensory_growth/organs/shoot/state";
 
 /// A run of half an hour of growth, made without a master.
@@ -100,7 +100,8 @@ TEST(Playback, ShowsEveryStateInOrder) {
   ChildProcess launch({"/usr/bin/env", "roslaunch", "sensory_growth", "playback.launch", "bag:=" + bag.path(),
                        "rate:=30", "paused:=true", "headless:=true", "linger:=true"},
                       bag.path() + ".txt");
-  startPlaying("/player", [&] { return viewer.isConnected(); });
+  startPlaying("/player", kLaunchPatience, [&] { return viewer.isConnected(); });
+  ASSERT_FALSE(HasFailure()) << launch.printed();
   const std::vector<OrganState> shown = viewer.waitForStates(recorded.size());
   ASSERT_EQ(shown.size(), recorded.size());
   for (std::size_t i = 0; i < recorded.size(); ++i) {

@@ -28,9 +28,9 @@ class TemporaryBag {
 
 /// Lets a player go on that began paused, once `is_ready` holds.
 template <typename Predicate>
-void startPlaying(const std::string& player, const Predicate& is_ready) {
+void startPlaying(const std::string& player, std::chrono::seconds patience, const Predicate& is_ready) {
   const std::string service = player + "/pause_playback";
-  const auto deadline = std::chrono::steady_clock::now() + kPatience;
+  const auto deadline = std::chrono::steady_clock::now() + patience;
   // Nothing notifies about services and connections; ROS time stands still, so it cannot be waited on either.
   while (!ros::service::exists(service, false) || !is_ready()) {
     if (std::chrono::steady_clock::now() > deadline) FAIL() << player << " is not ready";
