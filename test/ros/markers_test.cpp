@@ -241,7 +241,7 @@ TEST(MarkerColors, RoundUpTo125) {
 
 TEST(Markers, AGlowShowsWhichTissueIsASource) {
   auto snapshot = lit();
-  snapshot->organs[0].source = growth::PointSource{"stem", {1.0, 2.0, 3.03}, -1.0, {}};
+  snapshot->organs[0].source = growth::PointSource{"stem", {1.0, 2.0, 3.03}, -1.0, rod::Vector3::Zero()};
   const MarkerArray array = buildMarkers(*snapshot, settingsOf(MarkerShape::tube));
   const Marker& glow = find(array, "stem/source");
   EXPECT_EQ(glow.pose.position.z, 3.03);

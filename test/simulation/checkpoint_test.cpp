@@ -273,7 +273,10 @@ TEST_F(Bytes, OfStatesThatCannotBeAreRefusedByName) {
       {"not finite", [](SimulationState& s) { s.gravity.x() = NAN; }},
       {"organ 'other': comes from nowhere", [](SimulationState& s) { s.organs[1].id = "other"; }},
       {"comes from nowhere, or twice", [](SimulationState& s) { s.organs[1].id = s.organs[0].id; }},
-      {"is required", [](SimulationState& s) { s.births.push_back({"other", "id: other", {}}); }},
+      {"is required",
+       [](SimulationState& s) {
+         s.births.push_back({"other", "id: other", {0.0, 0.0, 0.0}});
+       }},
       {"stimulus 'lamp': strength", [](SimulationState& s) { s.point_sources[0].strength = 1e9; }},
       {"moves on its own", [](SimulationState& s) { s.point_sources[0].velocity.x() = 1.0; }},
       {"more than 256 stimuli", [](SimulationState& s) { s.point_sources.resize(257, s.point_sources[0]); }},
