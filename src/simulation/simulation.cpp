@@ -93,6 +93,7 @@ void Simulation::restore(const SimulationState& state) {
   if (state.step_index > kLatestStep) throw std::invalid_argument("the step index is beyond all that can be counted");
   if (const auto fault = findFault(GravityCommand{state.gravity})) throw std::invalid_argument(*fault);
   checkStimuli(state);
+  restoreBirths(state.births);
   step_index_ = state.step_index;
   setGravity(state.gravity);
   gravity_changed_ = state.gravity_changed;
@@ -110,8 +111,9 @@ void Simulation::restore(const SimulationState& state) {
   applied_.clear();
 }
 
-void Simulation::restoreOrgans(const SimulationState& state) {
-  for (const Birth& birth : state.births) {
+/// Adds the organs that the scenario does not have, in place of its own of the same id.
+void Simulation::restoreBirths(const std::vector<Birth>& births) {
+  for (const Birth& birth : births) {
     if (const auto replaced = find(birth.id); replaced != organs_.end()) organs_.erase(replaced);
     try {
       add(birth);
@@ -119,6 +121,10 @@ void Simulation::restoreOrgans(const SimulationState& state) {
       throw std::invalid_argument(fault.what());
     }
   }
+}
+
+/// Keeps only the organs of the state, in its order.
+void Simulation::restoreOrgans(const SimulationState& state) {
   std::vector<Organ> organs;
   for (const OrganState& organ_state : state.organs) {
     try {

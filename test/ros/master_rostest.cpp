@@ -8,7 +8,10 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <set>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "ros/process_fixture.h"
 
@@ -69,6 +72,14 @@ class Master : public Process {
     return child.printed();
   }
 
+  /// The same, whatever the order of its lines.
+  std::set<std::string> lines(const std::vector<std::string>& command) {
+    std::istringstream printed(tool(command));
+    std::set<std::string> lines;
+    for (std::string line; std::getline(printed, line);) lines.insert(line);
+    return lines;
+  }
+
   std::string output(const std::string& name) const { return directory_ / (name + ".txt"); }
 
   const int port_;
@@ -82,15 +93,15 @@ TEST_F(Master, ANodeOutlivesTheMasterAndIsFoundAgain) {
   ChildProcess first = startMaster();
   ChildProcess node = startNode();
   lookUntil("the service", [&] { return steps("1"); });
-  const std::string services = tool({"rosservice", "list"});
-  const std::string topics = tool({"rostopic", "list", "-v"});
+  const std::set<std::string> services = lines({"rosservice", "list"});
+  const std::set<std::string> topics = lines({"rostopic", "list", "-v"});
   first.kill();
 
   ChildProcess second = startMaster();
   lookUntil("the service again", [&] { return steps("2"); });
   // Everything as before, types included; whoever comes late gets what is latched, and is heard.
-  EXPECT_EQ(tool({"rosservice", "list"}), services);
-  EXPECT_EQ(tool({"rostopic", "list", "-v"}), topics);
+  EXPECT_EQ(lines({"rosservice", "list"}), services);
+  EXPECT_EQ(lines({"rostopic", "list", "-v"}), topics);
   EXPECT_NE(tool({"rostopic", "echo", "-n", "1", "/orphan/status"}).find("step_index: 2\n"), std::string::npos);
   tool({"rostopic", "pub", "-1", "/orphan/point_source", "sensory_growth/PointSource",
         "{operation: 1, id: lamp, position: {x: 0.1, z: 0.1}, strength: 1}"});

@@ -273,7 +273,7 @@ TEST_F(Bytes, OfStatesThatCannotBeAreRefusedByName) {
       {"not finite", [](SimulationState& s) { s.gravity.x() = NAN; }},
       {"organ 'other': comes from nowhere", [](SimulationState& s) { s.organs[1].id = "other"; }},
       {"comes from nowhere, or twice", [](SimulationState& s) { s.organs[1].id = s.organs[0].id; }},
-      {"is required",
+      {"base: is missing",
        [](SimulationState& s) {
          s.births.push_back({"other", "id: other", {0.0, 0.0, 0.0}});
        }},

@@ -93,6 +93,7 @@ class Simulation {
   std::optional<std::string> take(const RemoveCommand& command);
   void switchNext();
   void add(const Birth& birth);
+  void restoreBirths(const std::vector<Birth>& births);
   void restoreOrgans(const SimulationState& state);
   std::vector<Organ>::iterator find(const std::string& id);
 
