@@ -241,13 +241,9 @@ TEST(MarkerColors, RoundUpTo125) {
 
 TEST(Markers, AGlowShowsWhichTissueIsASource) {
   auto snapshot = lit();
-<<<<<<< HEAD
-  snapshot->organs[0].source = growth::PointSource{"stem", {1.0, 2.0, 3.03}, -1.0, rod::Vector3::Zero()};
-=======
   growth::PointSource& source = snapshot->organs[0].source.emplace();
   source.position = {1.0, 2.0, 3.03};
   source.strength = -1.0;
->>>>>>> work-eyes
   const MarkerArray array = buildMarkers(*snapshot, settingsOf(MarkerShape::tube));
   const Marker& glow = find(array, "stem/source");
   EXPECT_EQ(glow.pose.position.z, 3.03);
