@@ -55,7 +55,7 @@ def laid(program, law, G, S, elements=80, duration=40.0):
     }
 
 
-def orbit(program, law, G, S, push, duration, elements=60):
+def orbit(program, law, G, S, push, duration, elements):
     """A shoot pushed so far that its motion is no longer small: its tip over time, and its largest curvature."""
     step, every = 0.05, 4
     content = shoot.scenario(law, G, S, [0, 0, 1], duration, step, elements, push)

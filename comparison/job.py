@@ -16,15 +16,16 @@ from comparison import experiments, shoot
 GRID_G = (0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0)
 GRID_S = (0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0)
 ONSET_G = (0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0)
-# Around the onset at G = 1 (S = 2.36) and at G = 2 (4.82): G, S, push, duration.
+# Below and beyond the onset at G = 1 (2.36) and G = 2 (4.82): G, S, push, duration, elements.
 ORBITS = (
-    (1.0, 2.2, 2.0, 600.0),
-    (1.0, 2.34, 2.0, 1500.0),
-    (1.0, 2.4, 0.3, 1500.0),
-    (1.0, 2.6, 0.3, 1500.0),
-    (2.0, 4.7, 2.0, 600.0),
-    (2.0, 5.0, 0.3, 600.0),
-    (4.0, 7.0, 2.0, 300.0),
+    (1.0, 2.2, 2.0, 600.0, 60),
+    (1.0, 2.34, 2.0, 1500.0, 60),
+    (1.0, 2.4, 0.3, 1500.0, 60),
+    (1.0, 2.6, 0.3, 1500.0, 60),
+    (1.0, 2.6, 0.3, 1500.0, 120),
+    (2.0, 4.7, 2.0, 600.0, 60),
+    (2.0, 5.0, 0.3, 600.0, 60),
+    (4.0, 7.0, 2.0, 300.0, 60),
 )
 
 
@@ -43,7 +44,7 @@ def all_jobs(quick=False):
     if quick:
         grid, onsets, orbits = [("actual", 2.0, 3.0), ("relaxation", 2.0, 3.0)], [("relaxation", 2.0)], []
     jobs = [(f"onset_{law}_G{G}", experiments.onset, (law, G)) for law, G in onsets]
-    jobs += [(f"orbit_{law}_G{G}_S{S}", experiments.orbit, (law, G, S, *rest)) for law, G, S, *rest in orbits]
+    jobs += [(f"orbit_{o[0]}_G{o[1]}_S{o[2]}_n{o[-1]}", experiments.orbit, o) for o in orbits]
     jobs += [(f"point_{law}_G{G}_S{S}", point, (law, G, S)) for law, G, S in grid]
     return jobs
 

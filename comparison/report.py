@@ -125,7 +125,7 @@ def draw_righting(results):
 
 
 def draw_orbits(results):
-    shown = [results[f"orbit_relaxation_G1.0_S{S}"] for S in (2.2, 2.4, 2.6)]
+    shown = [results[f"orbit_relaxation_G1.0_S{S}"] for S in ("2.2_n60", "2.4_n60", "2.6_n60", "2.6_n120")]
     figure, panels = plt.subplots(1, 3, figsize=(13, 4.2), constrained_layout=True)
     last = shown[1]
     tip = np.array(last["tip"])
@@ -133,10 +133,10 @@ def draw_orbits(results):
     points = panels[0].scatter(tip[:, 0], tip[:, 1], c=times, s=1.5, cmap="viridis")
     panels[0].set(xlabel="x / L", ylabel="y / L", aspect="equal", title="tip from above, G = 1, S = 2.4")
     figure.colorbar(points, ax=panels[0], label="time")
-    for run, colour in zip(shown, ("#2c7d4f", "#e07b39", "#8c2d19")):
+    for run, colour in zip(shown, ("#2c7d4f", "#e07b39", "#8c2d19", "#5b7fb5")):
         tip = np.array(run["tip"])
         times = run["frame_time"] * np.arange(len(tip))
-        label = f"S = {run['arguments'][2]}"
+        label = f"S = {run['arguments'][2]}, {run['arguments'][-1]} elements"
         panels[1].plot(times, np.hypot(tip[:, 0], tip[:, 1]), color=colour, linewidth=1, label=label)
         panels[2].semilogy(times, run["largest_curvature"], color=colour, linewidth=1, label=label)
     panels[1].set(xlabel="time", ylabel="distance of the tip from the vertical / L", title="the swing")
