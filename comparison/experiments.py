@@ -60,7 +60,9 @@ def orbit(program, law, G, S, push, duration, elements):
     step, every = 0.05, 4
     content = shoot.scenario(law, G, S, [0, 0, 1], duration, step, elements, push)
     centrelines, ended = shoot.grow(program, content, every)
-    turns = np.arccos(np.clip(np.sum(np.diff(shoot.tangents(centrelines), axis=1) ** 2, axis=2) / -2.0 + 1.0, -1.0, 1.0))
+    turns = np.arccos(
+        np.clip(np.sum(np.diff(shoot.tangents(centrelines), axis=1) ** 2, axis=2) / -2.0 + 1.0, -1.0, 1.0)
+    )
     return {
         "ended": ended,
         "frame_time": step * every,

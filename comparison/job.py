@@ -1,7 +1,7 @@
 """One job of the comparison: a result file for a law at one G and S, one onset, or one orbit.
 
-Jobs are numbered from 1 and independent of each other. A job whose result is there already does nothing, so that the whole may be
-stopped and started again; a result appears when it is complete.
+Jobs are numbered from 1 and independent of each other. A job whose result is there already does nothing, so that the
+whole may be stopped and started again; a result appears when it is complete.
 """
 
 import argparse

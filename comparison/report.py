@@ -172,7 +172,18 @@ def onset_table(results):
 
 
 def grid_table(results):
-    head = ("law", "G", "S", "tip at rest x, z", "tip angle", "overshoot", "settles in", "rate", "frequency", "behaviour")
+    head = (
+        "law",
+        "G",
+        "S",
+        "tip at rest x, z",
+        "tip angle",
+        "overshoot",
+        "settles in",
+        "rate",
+        "frequency",
+        "behaviour",
+    )
     lines = [row(*head), row(*["---"] * len(head))]
     for (law, G, S), point in select(results, "point"):
         laid, disturbed = point["laid"], point["disturbed"]

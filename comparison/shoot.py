@@ -1,8 +1,8 @@
 """The shoot of the comparison and its experiments: scenarios, runs, centrelines.
 
-Everything is without dimension: lengths over the length L of the shoot, times over that in which it straightens, R / (gamma e_g).
-G is what it rights itself by over what it straightens by, beta L / gamma; S is its weight over its stiffness, rho g A L^3 / (E I).
-A radius of 5 cm, a length of 1 m and E I = 1 N m^2 stand for the units.
+Everything is without dimension: lengths over the length L of the shoot, times over that in which it straightens,
+R / (gamma e_g). G is what it rights itself by over what it straightens by, beta L / gamma; S is its weight over its
+stiffness, rho g A L^3 / (E I). A radius of 5 cm, a length of 1 m and E I = 1 N m^2 stand for the units.
 """
 
 import math
@@ -28,8 +28,8 @@ FLASHES = [
 
 
 def scenario(law, G, S, base, duration, step, elements, push=0.0):
-    """A shoot that keeps its length and grows all over by one unit of strain per second. `push` [-] is its sensitivity to
-    the flashes over that to gravity at G = 1."""
+    """A shoot that keeps its length and grows all over by one unit of strain per second. `push` [-] is its sensitivity
+    to the flashes over that to gravity at G = 1."""
     shoot = {
         "id": "shoot",
         "base": {"position": ["0 m"] * 3, "direction": base},

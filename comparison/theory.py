@@ -1,7 +1,7 @@
 """Linear stability of an upright shoot under its weight, for the three growth laws.
 
-With the small angle theta(s) from the vertical, the elastic part of the curvature is u = S int_s^1 (1 - t) theta(t) dt: what lies
-above pulls. Rest curvature is theta' - u, so that a mode exp(lambda t) of the law d(rest)/dt = -G theta - (...) satisfies
+With the small angle theta(s) from the vertical, the elastic part of the curvature is u = S int_s^1 (1 - t) theta(t) dt:
+what lies above pulls. Rest curvature is theta' - u, so that a mode exp(lambda t) of the laws satisfies
 
     lambda (D - U) theta = (-G - (D - U)) theta    intrinsic
     lambda (D - U) theta = (-G - D) theta          actual
@@ -26,8 +26,8 @@ def _differentiation(points):
 
 
 def spectrum(law, G, S, points=POINTS):
-    """All rates [1 / time of straightening], fastest growing first. Those that crowd at the rate of a point of tissue by
-    itself (-1, or 0 under relaxation) belong to the continuous spectrum and are no modes of the organ."""
+    """All rates [1 / time of straightening], fastest growing first. Those that crowd at the rate of a point of tissue
+    by itself (-1, or 0 under relaxation) belong to the continuous spectrum and are no modes of the organ."""
     s, D = _differentiation(points)
     backwards = -D
     backwards[-1] = 0.0

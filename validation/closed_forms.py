@@ -21,7 +21,8 @@ def shooting(equation, base, unknowns, residual):
 
 def planar_cantilever(load, tip_force=0.0, stretch=0.0, shear=0.0, steps=8):
     """Rod of unit length and stiffness, clamped horizontally, pulled down by `load` per length and `tip_force`: x, z and
-    angle of its tip. `stretch` and `shear` are compliances. The load is raised in steps, each starting from the last."""
+    angle of its tip. `stretch` and `shear` are compliances. The load is raised in steps, each starting from the last.
+    """
 
     def solve(factor, guess):
         def equation(s, y):

@@ -8,7 +8,7 @@ from scipy.special import ellipe, ellipk, jv
 
 from validation import closed_forms
 from validation.case import at_most, case, check, converging
-from validation.scenario import HORIZONTAL, RADIUS, STIFFNESS, UPRIGHT, organ, scenario, vector, weight
+from validation.scenario import HORIZONTAL, STIFFNESS, UPRIGHT, organ, scenario, vector, weight
 
 SECOND_ORDER = "second order in the element: 1e-4 of the length at 100 elements"
 GREENHILL = 2.25 * brentq(lambda z: jv(-1.0 / 3.0, z), 1.5, 2.2) ** 2  # 7.8373
@@ -72,9 +72,7 @@ def extensible_cantilever(bench):
         yield converging(f"L/R = {slenderness}: tip x, z", (x, z), measure, 50, 2e-4)
 
 
-@case(
-    "V3", "Cantilever under a dead force at its tip", "Bisshopp and Drucker 1945, elastica by shooting", SECOND_ORDER
-)
+@case("V3", "Cantilever under a dead force at its tip", "Bisshopp and Drucker 1945, elastica by shooting", SECOND_ORDER)
 def end_loaded_cantilever(bench):
     for load in (1, 2, 5, 10):
         x, z, _ = closed_forms.planar_cantilever(0.0, tip_force=load)
@@ -194,7 +192,13 @@ def end_couples(bench):
     yield check("curvature, M = 2 N m", np.full(100, 2.0 / STIFFNESS), bent.curvature[:, 1], 1e-9)
 
 
-@case("V10", "Rest helix", "exponential of the constant turn", "second order: chords of a helix of radius 0.15", quick=True)
+@case(
+    "V10",
+    "Rest helix",
+    "exponential of the constant turn",
+    "second order: chords of a helix of radius 0.15",
+    quick=True,
+)
 def rest_helix(bench):
     curvature, torsion, length = 2.0, 3.0, 2.0
     turn = np.array([[0, -torsion, curvature], [torsion, 0, 0], [-curvature, 0, 0]])
@@ -259,4 +263,8 @@ def timoshenko(bench):
     arc = bench.last(scenario(organ(rest_curvature=vector("1/m", 0, 1.5, 0), base=UPRIGHT)))
     angle = 1.5 * arc.arc_length
     expected = np.column_stack([(1.0 - np.cos(angle)) / 1.5, np.zeros_like(angle), np.sin(angle) / 1.5])
-    yield at_most("rest curvature imposed and released: largest distance from the arc", 1e-3, np.max(np.linalg.norm(arc.positions - expected, axis=1)))
+    yield at_most(
+        "rest curvature imposed and released: largest distance from the arc",
+        1e-3,
+        np.max(np.linalg.norm(arc.positions - expected, axis=1)),
+    )

@@ -3,7 +3,6 @@
 import math
 
 import numpy as np
-from scipy.optimize import brentq
 
 from comparison import experiments, theory
 from validation import closed_forms
@@ -49,7 +48,13 @@ def sagging_shape(balance, load):
     return end[0], end[1], math.pi / 2.0 - end[2]
 
 
-@case("V19", "A shoot that straightens by its actual curvature does not sag", "tan(A/2) = exp(-s/L_c)", SECOND_ORDER, quick=True)
+@case(
+    "V19",
+    "A shoot that straightens by its actual curvature does not sag",
+    "tan(A/2) = exp(-s/L_c)",
+    SECOND_ORDER,
+    quick=True,
+)
 def no_sag(bench):
     measure = lambda elements: shape(bench.last(laid("actual_length", 2.0, 3.0, elements)))[:2]
     yield converging("G = 2, S = 3: tip x, z", universal_shape(2.0)[:2], measure, 50, 1e-4)
@@ -58,7 +63,8 @@ def no_sag(bench):
 @case(
     "C2",
     "Steady shapes under weight, laws 1 and 2",
-    "law 2: universal shape; law 1: elastica with rest curvature -G sin A (Chelakkot and Mahadevan 2017, J. R. Soc. Interface 14:20170001), by shooting",
+    "law 2: universal shape; law 1: elastica with rest curvature -G sin A "
+    "(Chelakkot and Mahadevan 2017, J. R. Soc. Interface 14:20170001), by shooting",
     "1e-3 of L and of a radian: second order in the element",
 )
 def sagging(bench):
@@ -66,10 +72,20 @@ def sagging(bench):
     for balance in (1.0, 2.0, 4.0):
         for load in (1.0, 4.0):
             state = bench.last(laid("actual_length", balance, load))
-            yield check(f"law 2, G = {balance:.0f}, S = {load:.0f}: tip x, z, angle", universal_shape(balance), shape(state), 1e-3)
+            yield check(
+                f"law 2, G = {balance:.0f}, S = {load:.0f}: tip x, z, angle",
+                universal_shape(balance),
+                shape(state),
+                1e-3,
+            )
             shapes[2, balance, load] = state.positions
             state = bench.last(laid("intrinsic_length", balance, load))
-            yield check(f"law 1, G = {balance:.0f}, S = {load:.0f}: tip x, z, angle", sagging_shape(balance, load), shape(state), 1e-3)
+            yield check(
+                f"law 1, G = {balance:.0f}, S = {load:.0f}: tip x, z, angle",
+                sagging_shape(balance, load),
+                shape(state),
+                1e-3,
+            )
             shapes[1, balance, load] = state.positions
 
     def draw(axes):
@@ -96,7 +112,13 @@ def onset(bench):
     for balance, load in ((1.0, 2.3), (1.0, 3.0), (2.0, 5.5)):
         mode = theory.leading_mode(balance, load)
         measured = experiments.disturbed(program, "relaxation", balance, load)
-        yield check(f"G = {balance:.0f}, S = {load}: rate, frequency", (mode.real, abs(mode.imag)), (measured["rate"], measured["frequency"]), 0.03, relative=True)
+        yield check(
+            f"G = {balance:.0f}, S = {load}: rate, frequency",
+            (mode.real, abs(mode.imag)),
+            (measured["rate"], measured["frequency"]),
+            0.03,
+            relative=True,
+        )
     for balance in (1.0, 2.0):
         expected, frequency = theory.onset(balance)
         low, high = 0.9 * expected, 1.15 * expected
@@ -140,7 +162,12 @@ def free_steps(step):
     return stepping(step, limits={"growth_stress": "inf"})
 
 
-@case("V21", "Growth of a rod that is pulled or pressed", "Lockhart 1965: L = L₀ exp(ε (1 + N/Aσ) t), none below N = -Aσ", "1e-6: the elastic strain of 1e-7 is not in the rest length")
+@case(
+    "V21",
+    "Growth of a rod that is pulled or pressed",
+    "Lockhart 1965: L = L₀ exp(ε (1 + N/Aσ) t), none below N = -Aσ",
+    "1e-6: the elastic strain of 1e-7 is not in the rest length",
+)
 def pulled_growth(bench):
     for force in (0.5, -0.5, -1.5):
         content = scenario(coupled(tip_force=vector("N", force, 0, 0)), stepping=free_steps(0.05))
@@ -197,13 +224,26 @@ def deposition(bench):
         "stiffening": {"mature_modulus": "2 MPa", "time": "1 s"},
         "thickening": {"mature_radius": "8 cm", "time": "2 s"},
     }
-    states = bench.states(scenario(organ(tip_force=vector("N", 0, 0, -2), aging=aging), duration="3 s", stepping=stepping(0.1)))
+    states = bench.states(
+        scenario(organ(tip_force=vector("N", 0, 0, -2), aging=aging), duration="3 s", stepping=stepping(0.1))
+    )
     positions = [state.positions for state in states["organ"]]
-    yield at_most("largest way of a vertex while stiffness grows a hundredfold", 1e-9, np.max(np.abs(positions[-1] - positions[0])))
-    yield check("deflection that it keeps", closed_forms.planar_cantilever(0.0, tip_force=2.0)[1], positions[-1][-1, 2], 2e-4)
+    yield at_most(
+        "largest way of a vertex while stiffness grows a hundredfold",
+        1e-9,
+        np.max(np.abs(positions[-1] - positions[0])),
+    )
+    yield check(
+        "deflection that it keeps", closed_forms.planar_cantilever(0.0, tip_force=2.0)[1], positions[-1][-1, 2], 2e-4
+    )
 
 
-@case("C10", "Rest curvature of an organ held on an arc", "Goldstein and Goriely 2006, Phys. Rev. E 74:010901: κ₀ = κ (1 - exp(-r t))", "0.5 % asked; exact steps give 1e-6")
+@case(
+    "C10",
+    "Rest curvature of an organ held on an arc",
+    "Goldstein and Goriely 2006, Phys. Rev. E 74:010901: κ₀ = κ (1 - exp(-r t))",
+    "0.5 % asked; exact steps give 1e-6",
+)
 def held_on_arc(bench):
     curvature, rate = 0.8, 1.0
     # Elements are chords of the arc: the apex is held at the end of their polygon.
@@ -223,7 +263,9 @@ def held_on_arc(bench):
     states = bench.states(scenario(rod, duration="3 s", stepping=stepping(0.05)))["organ"]
     for index in (10, 30, 60):
         expected = curvature * (1.0 - math.exp(-rate * 0.05 * index))
-        yield check(f"rest curvature at t = {0.05 * index}", np.full(40, expected), states[index].rest_curvature[:, 1], 1e-6)
+        yield check(
+            f"rest curvature at t = {0.05 * index}", np.full(40, expected), states[index].rest_curvature[:, 1], 1e-6
+        )
 
 
 @case(

@@ -30,25 +30,37 @@ def largest_angle(bench, pulses, duration):
             }
         ],
     )
-    content = scenario(rod, relaxation=KINEMATIC, duration=f"{duration!r} s", stepping=stepping(STEP), protocol=protocol)
+    content = scenario(
+        rod, relaxation=KINEMATIC, duration=f"{duration!r} s", stepping=stepping(STEP), protocol=protocol
+    )
     edges = np.array([np.diff(frame[-3:], axis=0) for frame in bench.centrelines(content)])
     angles = np.arctan2(edges[..., 0], edges[..., 2])
-    return np.degrees(np.max(1.5 * angles[:, 1] - 0.5 * angles[:, 0]))  # the apex is half an element beyond the last edge
+    return np.degrees(
+        np.max(1.5 * angles[:, 1] - 0.5 * angles[:, 0])
+    )  # the apex is half an element beyond the last edge
 
 
 @case(
     "C6",
     "Light pulses: equal doses, and two with a lag",
-    "law of Meroz, Bastien and Mahadevan 2019, J. R. Soc. Interface 16:20190038; figures of a first-order integration with steps of 0.00125 and 400 elements",
+    "law of Meroz, Bastien and Mahadevan 2019, J. R. Soc. Interface 16:20190038; "
+    "figures of a first-order integration with steps of 0.00125 and 400 elements",
     "doses 1e-3, the integration's own error; ratios 2e-3",
 )
 def pulses(bench):
     for intensity, steps, expected in ((2.0, 50, 71.3378), (10.0, 10, 71.6071), (50.0, 2, 71.6192)):
         measured = largest_angle(bench, [(0.0, steps * STEP, intensity)], 3.0)
-        yield check(f"intensity {intensity:.0f} for {steps} steps: largest angle [deg]", expected, measured, 1e-3, relative=True)
+        yield check(
+            f"intensity {intensity:.0f} for {steps} steps: largest angle [deg]", expected, measured, 1e-3, relative=True
+        )
     width = 10 * STEP
     together = largest_angle(bench, [(0.0, width, 0.02)], 4.0)
     for lag, expected in ((0.25, 0.984), (1.0, 0.823), (4.0, 0.518)):
         start = lag / 0.5
         measured = largest_angle(bench, [(0.0, width, 0.01), (start, start + width, 0.01)], start + 3.0)
-        yield check(f"two pulses, {lag} of the straightening time apart: response over that at once", expected, measured / together, 2e-3)
+        yield check(
+            f"two pulses, {lag} of the straightening time apart: response over that at once",
+            expected,
+            measured / together,
+            2e-3,
+        )

@@ -1,6 +1,5 @@
 """The live node: lights sent while it runs, and a shipped scenario. C7, C8, and C2 once more."""
 
-import json
 import math
 import pathlib
 

@@ -1,5 +1,5 @@
-"""A recorded run of the live node, as a user would do it: roslaunch without a display, lights on the topic, steps and the end by
-service. A process of its own, since a process has one ROS node for life."""
+"""A recorded run of the live node, as a user would do it: roslaunch without a display, lights on the topic, steps and the
+end by service. A process of its own, since a process has one ROS node for life."""
 
 import argparse
 import json
@@ -41,7 +41,7 @@ class Client:
     def __init__(self):
         import rospy
         from sensory_growth.msg import AppliedCommand, LightDirection
-        from sensory_growth.srv import Command, Step, StopRecording
+        from sensory_growth.srv import Step, StopRecording
 
         self._connected, self._applied = threading.Event(), threading.Semaphore(0)
         self._message = LightDirection

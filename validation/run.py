@@ -13,7 +13,7 @@ from validation import report
 from validation.bench import Bench
 from validation.case import CASES, Result
 
-FAMILIES = ("elastic", "elongation", "tropism", "growth_laws", "histories", "live")
+FAMILIES = ("elastic", "elongation", "tropism", "growth_laws", "histories", "properties", "live")
 PACKAGE = pathlib.Path(__file__).resolve().parent.parent
 
 

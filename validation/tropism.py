@@ -3,12 +3,12 @@
 import math
 
 import numpy as np
-from scipy.integrate import quad, solve_ivp
+from scipy.integrate import quad
 from scipy.optimize import brentq
 from scipy.special import j0, j1
 
 from validation.case import at_most, case, check, converging
-from validation.scenario import KINEMATIC, RADIUS, UPRIGHT, organ, scenario, stepping, vector
+from validation.scenario import KINEMATIC, RADIUS, UPRIGHT, organ, scenario, stepping
 
 FIXED_LENGTH = {"rate": "1 1/s"}
 
@@ -112,7 +112,12 @@ def oscillator(bench):
     yield converging("rest curvature, radius of the orbit (steps doubled)", (expected, orbit), measure, 40, 1e-3)
 
 
-@case("V16", "Gravity sensed at the apex", "tan(A/2) = tan(A₀/2) exp(-λ ε L/R)", "the apex frame makes it right for any number of elements")
+@case(
+    "V16",
+    "Gravity sensed at the apex",
+    "tan(A/2) = tan(A₀/2) exp(-λ ε L/R)",
+    "the apex frame makes it right for any number of elements",
+)
 def apical_sensing(bench):
     tilt = 1.2
     expected = 2.0 * math.atan(math.tan(tilt / 2.0) * math.exp(-2.0))
@@ -212,4 +217,10 @@ def righting(bench):
         yield converging(f"B = {balance:.0f}: A/A₀ at five times (steps doubled)", expected, measure, 20, 2e-3)
 
     lowest = lambda balance: record(balance, 40)[: 3 * 40].min()
-    yield check("balance number where the tip first passes the vertical", overshoot_threshold(), brentq(lowest, 2.7, 2.9, xtol=2e-3), 5e-3, relative=True)
+    yield check(
+        "balance number where the tip first passes the vertical",
+        overshoot_threshold(),
+        brentq(lowest, 2.7, 2.9, xtol=2e-3),
+        5e-3,
+        relative=True,
+    )
