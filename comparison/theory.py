@@ -41,7 +41,7 @@ def spectrum(law, G, S, points=POINTS):
 
 
 def leading_mode(G, S, points=POINTS):
-    """The fastest growing rate of an organ under strain relaxation that is no part of the continuum at zero, or None."""
+    """The fastest growing rate under strain relaxation that is no part of the continuum at zero, or None."""
     rates = spectrum("relaxation", G, S, points)
     modes = rates[(np.abs(rates) > 0.06 * min(1.0, G)) & (rates.imag >= 0.0)]
     return modes[0] if len(modes) else None

@@ -20,9 +20,9 @@ def shooting(equation, base, unknowns, residual):
 
 
 def planar_cantilever(load, tip_force=0.0, stretch=0.0, shear=0.0, steps=8):
-    """Rod of unit length and stiffness, clamped horizontally, pulled down by `load` per length and `tip_force`: x, z and
-    angle of its tip. `stretch` and `shear` are compliances. The load is raised in steps, each starting from the last.
-    """
+    """Rod of unit length and stiffness, clamped horizontally, pulled down by `load` per length and `tip_force`: x, z
+    and angle of its tip. `stretch` and `shear` are compliances. The load is raised in steps, each starting from the
+    last."""
 
     def solve(factor, guess):
         def equation(s, y):
@@ -43,8 +43,8 @@ def planar_cantilever(load, tip_force=0.0, stretch=0.0, shear=0.0, steps=8):
 
 
 def stepped_cantilever(stiffness, tip_force):
-    """Height of the tip of a rod of unit length with stiffness(s), clamped horizontally, under a force at its tip. A jump
-    is assumed at s = 1/2."""
+    """Height of the tip of a rod of unit length with stiffness(s), clamped horizontally, under a force at its tip. A
+    jump is assumed at s = 1/2."""
 
     def end(moment):
         y = [0.0, 0.0, 0.0, moment]
@@ -59,8 +59,8 @@ def stepped_cantilever(stiffness, tip_force):
 
 
 def leaning_column(load):
-    """Lateral deflection and height of the tip of an upright rod of unit length and stiffness, bent by `load` per length
-    beyond its Greenhill load."""
+    """Lateral deflection and height of the tip of an upright rod of unit length and stiffness, bent by `load` per
+    length beyond its Greenhill load."""
 
     def end(curvature):
         equation = lambda s, y: [np.sin(y[2]), np.cos(y[2]), y[3], -load * (1.0 - s) * np.sin(y[2])]

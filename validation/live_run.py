@@ -1,5 +1,5 @@
-"""A recorded run of the live node, as a user would do it: roslaunch without a display, lights on the topic, steps and the
-end by service. A process of its own, since a process has one ROS node for life."""
+"""A recorded run of the live node, as a user would do it: roslaunch without a display, lights on the topic, steps and
+the end by service. A process of its own, since a process has one ROS node for life."""
 
 import argparse
 import json

@@ -9,13 +9,13 @@ FINDINGS = pathlib.Path(__file__).parent / "findings.md"
 HEAD = """# Validation
 
 Every figure below was measured through a public interface (`batch`: `sensory_growth_batch run` and the bag or table it
-writes; `library`: a program on `libsensory_growth`; `node`: the live node, headless, and its bag) and is compared with one
-that the simulator had no part in. `./scripts/validate` makes this page anew; `--quick` runs the cases marked with a star,
-`--keep` leaves scenarios and bags in `build/validation`.
+writes; `library`: a program on `libsensory_growth`; `node`: the live node, headless, and its bag) and is compared with
+one that the simulator had no part in. `./scripts/validate` makes this page anew; `--quick` runs the cases marked with
+a star, `--keep` leaves scenarios and bags in `build/validation`.
 
-*Error* is the largest over the components, *order* the order of convergence seen when the resolution is doubled (elements,
-or steps where the case says so; the finer run is the one shown). Cases are numbered as in [model.md](model.md) (V), whole
-systems are C, properties P.
+*Error* is the largest over the components, *order* the order of convergence seen when the resolution is doubled
+(elements, or steps where the case says so; the finer run is the one shown). Cases are numbered as in
+[model.md](model.md) (V), whole systems are C, properties P.
 """
 
 
