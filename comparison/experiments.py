@@ -8,6 +8,7 @@ from comparison.modes import leading_mode
 STEP = 0.02  # law 2 is stepped explicitly in what weight adds to it, up to 25 times as much on this grid
 SMALL = 0.02  # lateral tangent up to which a motion counts as linear
 SETTLED = np.radians(1.0)
+RESTING = np.radians(0.01)
 
 
 def disturbed(program, law, G, S, elements=40, duration=120.0, push=1e-5, step=STEP):
@@ -40,12 +41,13 @@ def laid(program, law, G, S, elements=80, duration=40.0):
     centrelines, ended = shoot.grow(program, content, every)
     tangent = shoot.tip_tangents(centrelines)
     angle = np.unwrap(np.arctan2(tangent[:, 0], tangent[:, 2]))  # from upright, towards where the base points
-    resting = ended and np.ptp(angle[-len(angle) // 10 :]) < SETTLED
+    resting = ended and np.ptp(angle[-len(angle) // 10 :]) < RESTING
     away = np.flatnonzero(np.abs(angle - angle[-1]) > SETTLED)
     return {
         "rests": bool(resting),
         "tip_angle": float(np.degrees(angle[-1])),
-        "tip": [float(value) for value in centrelines[-1, -1, [0, 2]]],
+        "tip": [float(value) for value in centrelines[-1, -1]],
+        "aside": float(np.max(np.abs(centrelines[-1, :, 1]))),  # out of the plane it was laid in
         "overshoot": float(np.degrees(max(0.0, angle[-1] - np.min(angle)))) if resting else None,
         "beyond_upright": float(np.degrees(max(0.0, -np.min(angle)))),
         "settling_time": float((away[-1] + 1) * step * every) if resting and len(away) else None,

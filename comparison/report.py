@@ -24,6 +24,7 @@ COLOURS = {"intrinsic": "#3b6ea5", "actual": "#2c7d4f", "relaxation": "#b5482f"}
 BEHAVIOURS = {  # name: marker, colour
     "rights itself": ("o", "#2c7d4f"),
     "overshoots by more than 1°, then rests": ("o", "#9ccc65"),
+    "falls aside": ("^", "#7a5195"),
     "swings; small swings die out": ("D", "#f2c14e"),
     "swings of itself, more and more": ("s", "#e07b39"),
     "bends over without swinging": ("X", "#8c2d19"),
@@ -53,6 +54,8 @@ def behaviour(point):
     rate, frequency = point["disturbed"]["rate"], point["disturbed"]["frequency"]
     if rate > 0.0:
         return "swings of itself, more and more" if frequency > 0.1 * rate else "bends over without swinging"
+    if point["laid"]["aside"] > 0.01:
+        return "falls aside"
     if not point["laid"]["rests"]:
         return "swings; small swings die out"
     return "rights itself" if point["laid"]["overshoot"] < 1.0 else "overshoots by more than 1°, then rests"
@@ -60,7 +63,7 @@ def behaviour(point):
 
 def save(figure, name):
     PICTURES.mkdir(parents=True, exist_ok=True)
-    figure.savefig(PICTURES / f"{name}.svg", metadata={"Date": None})
+    figure.savefig(PICTURES / f"{name}.svg", metadata={"Date": None}, bbox_inches="tight", dpi=150)
     plt.close(figure)
 
 
@@ -78,7 +81,7 @@ def draw_behaviours(results):
     panels[0].text(0.5, GREENHILL + 0.08, "falls over by its weight alone", fontsize="small", color="0.4")
     handles = [plt.Line2D([], [], linestyle="", marker=m, color=c, label=name) for name, (m, c) in BEHAVIOURS.items()]
     handles.append(plt.Line2D([], [], color="k", linewidth=1, label="onset, linear theory"))
-    figure.legend(handles=handles, loc="outside lower center", ncols=3, frameon=False)
+    figure.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0.0), ncols=3, frameon=False)
     save(figure, "behaviours")
 
 
@@ -130,7 +133,7 @@ def draw_orbits(results):
     last = shown[1]
     tip = np.array(last["tip"])
     times = last["frame_time"] * np.arange(len(tip))
-    points = panels[0].scatter(tip[:, 0], tip[:, 1], c=times, s=1.5, cmap="viridis")
+    points = panels[0].scatter(tip[:, 0], tip[:, 1], c=times, s=1.5, cmap="viridis", rasterized=True)
     panels[0].set(xlabel="x / L", ylabel="y / L", aspect="equal", title="tip from above, G = 1, S = 2.4")
     figure.colorbar(points, ax=panels[0], label="time")
     for run, colour in zip(shown, ("#2c7d4f", "#e07b39", "#8c2d19", "#5b7fb5")):
@@ -187,13 +190,13 @@ def grid_table(results):
     lines = [row(*head), row(*["---"] * len(head))]
     for (law, G, S), point in select(results, "point"):
         laid, disturbed = point["laid"], point["disturbed"]
-        resting = laid["rests"]
+        resting = laid["rests"] and laid["aside"] <= 0.01
         lines.append(
             row(
                 law,
                 f"{G}",
                 f"{S:.0f}",
-                f"{laid['tip'][0]:.3f}, {laid['tip'][1]:.3f}" if resting else "–",
+                f"{laid['tip'][0]:.3f}, {laid['tip'][2]:.3f}" if resting else "–",
                 f"{laid['tip_angle']:.1f}°" if resting else "–",
                 f"{laid['overshoot']:.1f}°" if resting else "–",
                 f"{laid['settling_time']:.1f}" if resting and laid["settling_time"] is not None else "–",

@@ -71,15 +71,17 @@ def _state(message):
     )
 
 
-def read_bag(path):
-    """States of every organ in order of time."""
+def read_bag(path, last=False):
+    """States of every organ in order of time, or the last of each alone, which takes no time."""
+    import genpy
     import rosbag
 
     states = {}
     with rosbag.Bag(str(path)) as bag:
+        start = genpy.Time.from_sec(bag.get_end_time() - 1e-6) if last else None
         types = bag.get_type_and_topic_info().topics
         topics = [name for name, info in types.items() if info.msg_type == "sensory_growth/OrganState"]
-        for _, message, _ in bag.read_messages(topics=topics):
+        for _, message, _ in bag.read_messages(topics=topics, start_time=start):
             states.setdefault(message.organ, []).append(_state(message))
     return states
 
@@ -111,24 +113,23 @@ class Bench:
             raise RunFailed(f"{program} ended with {done.returncode}: {done.stderr.strip()}")
         return done.stdout
 
-    def states(self, content, threads=1):
-        """Runs a scenario into a bag: states of every organ by its id."""
+    def _record(self, content):
         path = self.write(content)
         bag = path.with_suffix(".bag")
         bag.unlink(missing_ok=True)
-        self.call(
-            "sensory_growth_batch", "run", path, "--bag", bag, "--marker-every", 0, "--threads", threads, "--quiet"
-        )
-        return read_bag(bag)
+        self.call("sensory_growth_batch", "run", path, "--bag", bag, "--marker-every", 0, "--threads", 1, "--quiet")
+        return bag
 
-    def centrelines(self, content, every=1, threads=1):
+    def states(self, content):
+        """Runs a scenario into a bag: states of every organ by its id."""
+        return read_bag(self._record(content))
+
+    def centrelines(self, content, every=1):
         """Runs a scenario without a bag, which is faster: positions of the only organ, a matrix per frame."""
         path = self.write(content)
         folder = path.with_suffix(".csv")
         shutil.rmtree(folder, ignore_errors=True)
-        self.call(
-            "sensory_growth_batch", "run", path, "--csv", folder, "--every", every, "--threads", threads, "--quiet"
-        )
+        self.call("sensory_growth_batch", "run", path, "--csv", folder, "--every", every, "--threads", 1, "--quiet")
         (table,) = folder.glob("*.csv")
         rows = np.loadtxt(table, delimiter=",", skiprows=1)
         starts = np.flatnonzero(np.diff(rows[:, 0])) + 1
@@ -147,7 +148,7 @@ class Bench:
 
     def last(self, content):
         """State of the only organ of a scenario at its end."""
-        (states,) = self.states(content).values()
+        (states,) = read_bag(self._record(content), last=True).values()
         return states[-1]
 
     def picture(self, name, draw, **size):

@@ -4,6 +4,7 @@ import numpy as np
 
 from validation.case import case, check
 from validation.scenario import KINEMATIC, RADIUS, UPRIGHT, organ, scenario, stepping
+from validation.tropism import apex_angles
 
 STEP = 0.005
 SIDE = [1, 0, 0]
@@ -33,11 +34,7 @@ def largest_angle(bench, pulses, duration):
     content = scenario(
         rod, relaxation=KINEMATIC, duration=f"{duration!r} s", stepping=stepping(STEP), protocol=protocol
     )
-    edges = np.array([np.diff(frame[-3:], axis=0) for frame in bench.centrelines(content)])
-    angles = np.arctan2(edges[..., 0], edges[..., 2])
-    return np.degrees(
-        np.max(1.5 * angles[:, 1] - 0.5 * angles[:, 0])
-    )  # the apex is half an element beyond the last edge
+    return np.degrees(np.max(apex_angles(bench.centrelines(content))))
 
 
 @case(
