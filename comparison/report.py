@@ -144,7 +144,7 @@ def draw_orbits(results):
         panels[2].semilogy(times, run["largest_curvature"], color=colour, linewidth=1, label=label)
     panels[1].set(xlabel="time", ylabel="distance of the tip from the vertical / L", title="the swing")
     panels[2].set(xlabel="time", ylabel="largest curvature × L", title="the curl")
-    panels[1].legend(frameon=False)
+    panels[2].legend(frameon=False, loc="lower right")
     save(figure, "orbits")
 
 
