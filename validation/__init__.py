@@ -1,0 +1,1 @@
+"""Runs the cases of docs/validation.md through the public interfaces and compares them with figures of other origin."""
