@@ -16,6 +16,7 @@ std::string partOf(const std::string& file, int part) {
 
 std::optional<std::string> Recorder::start(const std::string& file) {
   if (recording_) return "already recording " + recording_->path();
+  finishPrevious();
   first_file_ = file;
   parts_ = 0;
   return open(file);
