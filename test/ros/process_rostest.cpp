@@ -84,12 +84,12 @@ TEST_F(Process, InterruptedWhileTheBagLagsBehindLeavesItClosed) {
   ChildProcess child = start();
   {
     NodeUnderTest node(name_);
-    node.waitForStatus("a full queue", [](const Status& s) { return s.step_index >= 100; });
+    node.waitForStatus("a full queue", [](const Status& s) { return s.step_index >= 30; });
   }
   child.signal(SIGHUP);
   EXPECT_EQ(child.waitForExit(5s), 0) << child.printed();
   const rosbag::Bag bag((directory_ / "lagging.bag").string());
-  EXPECT_GE(readTopic<OrganState>(bag, name_ + "/organs/shoot/state").size(), 101u);
+  EXPECT_GE(readTopic<OrganState>(bag, name_ + "/organs/shoot/state").size(), 31u);
 }
 
 TEST_F(Process, KilledWhileRecordingLosesAFifthOfASecondAtMost) {
