@@ -104,13 +104,18 @@ FrameFiles::FrameFiles(const FrameOptions& options, const std::vector<std::strin
   makeFolder(options_.csv);
   makeFolder(options_.vtk);
   for (const std::string& organ : organs) {
-    if (!options_.vtk.empty()) refuseExisting(seriesPath(organ));
-    if (!options_.csv.empty()) refuseExisting(tablePath(organ));
+    if (organs_.insert(organ).second) refuseFilesOf(organ);
   }
+}
+
+void FrameFiles::refuseFilesOf(const std::string& organ) const {
+  if (!options_.vtk.empty()) refuseExisting(seriesPath(organ));
+  if (!options_.csv.empty()) refuseExisting(tablePath(organ));
 }
 
 void FrameFiles::write(const OrganState& state) {
   if (state.epoch != epoch_ || state.step_index % options_.every != 0) return;
+  if (organs_.insert(state.organ).second) refuseFilesOf(state.organ);
   if (!options_.csv.empty()) writeTable(state);
   if (!options_.vtk.empty()) writeVtk(state);
 }

@@ -39,9 +39,9 @@ std::uint8_t toConstant(Mode mode) {
 
 constexpr std::size_t kMostCommandsKept = 100000;  // some 40 MB
 
-constexpr char kHistoryIsCut[] =
-    "more commands were taken since the last reset than are kept (100000), so the bag would not hold the whole run; "
-    "record from the start, or reset";
+const std::string kHistoryIsCut = "more commands were taken since the last reset than are kept (" +
+                                  std::to_string(kMostCommandsKept) +
+                                  "), so the bag would not hold the whole run; record from the start, or reset";
 
 }  // namespace
 

@@ -113,10 +113,11 @@ void Simulation::restore(const SimulationState& state) {
 
 /// Adds the organs that the scenario does not have, in place of its own of the same id.
 void Simulation::restoreBirths(const std::vector<Birth>& births) {
+  if (births.size() > kMostOrgans) throw std::invalid_argument("more organs were added than there can be");
   for (const Birth& birth : births) {
     if (const auto replaced = find(birth.id); replaced != organs_.end()) organs_.erase(replaced);
     try {
-      add(birth);
+      add(birth.organ, birth.gravity);
     } catch (const std::exception& fault) {
       throw std::invalid_argument(fault.what());
     }
@@ -218,7 +219,7 @@ std::optional<std::string> Simulation::take(const SpawnCommand& command) {
     return "there are " + std::to_string(organs_.size()) + " organs already; remove one first";
   }
   try {
-    add({parseOrgan(command.organ, "organ", scenario_.relaxation).id, command.organ, gravity_});
+    add(command.organ, gravity_);
   } catch (const std::exception& fault) {
     return fault.what();
   }
@@ -236,17 +237,16 @@ std::optional<std::string> Simulation::take(const RemoveCommand& command) {
   return std::nullopt;
 }
 
-/// Throws std::exception saying why it cannot be.
-void Simulation::add(const Birth& birth) {
-  if (find(birth.id) != organs_.end()) {
-    throw std::invalid_argument("there is an organ '" + birth.id + "' already; give another id");
+/// Adds an organ that began under that gravity. Throws std::exception saying why it cannot be.
+void Simulation::add(const std::string& organ, const rod::Vector3& gravity) {
+  const OrganScenario parsed = parseOrgan(organ, "organ", scenario_.relaxation);
+  if (find(parsed.id) != organs_.end()) {
+    throw std::invalid_argument("there is an organ '" + parsed.id + "' already; give another id");
   }
-  const OrganScenario organ = parseOrgan(birth.organ, "organ", scenario_.relaxation);
-  if (organ.id != birth.id) throw std::invalid_argument("organ '" + organ.id + "' is called '" + birth.id + "'");
-  Scenario now = scenario_;
-  now.gravity = birth.gravity;
-  organs_.push_back(Organ(organ, now));
-  births_.push_back(birth);
+  Scenario then = scenario_;
+  then.gravity = gravity;
+  organs_.push_back(Organ(parsed, then));
+  births_.push_back({parsed.id, organ, gravity});
 }
 
 std::vector<Organ>::iterator Simulation::find(const std::string& id) {

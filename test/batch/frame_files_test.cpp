@@ -113,6 +113,9 @@ TEST_F(FrameFilesTest, DoNotReplaceOthers) {
   write("shoot.vtk.series", "precious");
   EXPECT_THROW(FrameFiles({"", folder_, 1}, {"shoot"}), BadInput);
   EXPECT_THROW(FrameFiles({path("shoot.csv"), "", 1}, {"root"}), BadInput);  // no folder
+  FrameFiles later({folder_, "", 1}, {"root"});
+  EXPECT_THROW(later.write(shoot(0)), BadInput);
+  EXPECT_EQ(textOf(path("shoot.csv")), "precious");
 }
 
 TEST_F(FrameFilesTest, SayWhenTheDiskTakesNothing) {

@@ -8,6 +8,7 @@
 #include "sensory_growth/OrganState.h"
 #include "sensory_growth/Status.h"
 #include "sensory_growth/batch/batch_run.h"
+#include "support/spawned_organ.h"
 
 namespace sensory_growth::batch::testing {
 namespace {
@@ -63,17 +64,7 @@ class ReplayTest : public InFolder {
   }
 };
 
-const std::string kOrgan = R"(id: late
-base: {position: [5 cm, 0 m, 0 m], direction: [0, 0, 1]}
-length: 20 mm
-elements: 10
-radius: 0.8 mm
-material: {young_modulus: 10 MPa, poisson_ratio: 0.5, density: 1000 kg/m^3}
-growth: {profile: apical_flat, rate: 0.6 1/h, zone_length: 15 mm}
-sensitivities: {gravity: 0.4, light_direction: 0.8, point_source: 0.8, softening_length: 1 mm}
-proprioception: {intrinsic_length: 8 mm}
-division: {longest_element: 3 mm}
-)";
+const std::string kOrgan = support::organText("late");
 
 // In epoch 0 the sun; in epoch 1 the sun, the lamp, nobody, the sun's end, the parameter, gravity and the lamp's end.
 constexpr std::size_t kCommands = 8;

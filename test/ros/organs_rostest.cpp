@@ -11,14 +11,15 @@
 
 #include "ros/heard.h"
 #include "ros/node_under_test.h"
-#include "ros/spawned_organ.h"
 #include "sensory_growth/RemoveOrgan.h"
 #include "sensory_growth/SpawnOrgan.h"
 #include "sensory_growth/simulation/checksum.h"
+#include "support/spawned_organ.h"
 
 namespace sensory_growth::node::testing {
 namespace {
 
+using support::organText;
 using ::testing::HasSubstr;
 using visualization_msgs::Marker;
 

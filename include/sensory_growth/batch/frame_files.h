@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <fstream>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,11 +34,12 @@ std::string toVtk(const OrganState& state);
 class FrameFiles {
  public:
   /// Creates the folders, and no file before the first frame. Throws BadInput if that fails or an organ has files
-  /// there already.
+  /// there already. Other organs may come later.
   /// States of other epochs than `epoch` are left out.
   FrameFiles(const FrameOptions& options, const std::vector<std::string>& organs, std::uint32_t epoch = 0);
 
-  /// Writes the state if its step is one of those wanted. Throws std::runtime_error if the disk does not take it.
+  /// Writes the state if its step is one of those wanted. Throws std::runtime_error if the disk does not take it or if
+  /// an organ that came later has files there already.
   void write(const OrganState& state);
 
   /// The same if the message is a state.
@@ -52,6 +54,7 @@ class FrameFiles {
     double growth_time = 0.0;
   };
 
+  void refuseFilesOf(const std::string& organ) const;
   void writeTable(const OrganState& state);
   void writeVtk(const OrganState& state);
   std::string tablePath(const std::string& organ) const;
@@ -59,6 +62,7 @@ class FrameFiles {
 
   const FrameOptions options_;
   const std::uint32_t epoch_;
+  std::set<std::string> organs_;                      // that have no files of others
   std::map<std::string, std::ofstream> tables_;       // by organ, from its first frame on
   std::map<std::string, std::vector<Frame>> series_;  // by organ
 };

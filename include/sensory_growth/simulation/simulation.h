@@ -92,7 +92,7 @@ class Simulation {
   std::optional<std::string> take(const SpawnCommand& command);
   std::optional<std::string> take(const RemoveCommand& command);
   void switchNext();
-  void add(const Birth& birth);
+  void add(const std::string& organ, const rod::Vector3& gravity);
   void restoreBirths(const std::vector<Birth>& births);
   void restoreOrgans(const SimulationState& state);
   std::vector<Organ>::iterator find(const std::string& id);

@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace sensory_growth::node::testing {
+namespace sensory_growth::support {
 
 /// An entry of `organs`: a shoot of 20 mm that stands 5 cm beside the origin.
 inline std::string organText(const std::string& id) {
@@ -19,4 +19,4 @@ division: {longest_element: 3 mm}
 )";
 }
 
-}  // namespace sensory_growth::node::testing
+}  // namespace sensory_growth::support
