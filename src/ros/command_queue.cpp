@@ -45,7 +45,7 @@ bool CommandQueue::waitUntil(Clock::time_point deadline) {
 }
 
 void CommandQueue::close() {
-  std::vector<Command> dropped;  // destroyed outside the lock: it may hold the promises of waiting callers
+  std::vector<Command> dropped;  // destroyed outside the lock: it may hold the replies that callers wait for
   const std::lock_guard<std::mutex> lock(mutex_);
   is_closed_ = true;
   dropped.swap(waiting_);

@@ -52,7 +52,7 @@ Answer SimulationLoop::resume() {
 Answer SimulationLoop::reset() {
   return ask([this](const Reply& reply) {
     resetNow();
-    reply->set_value(answer(true, "back at step 0"));
+    reply->give(answer(true, "back at step 0"));
   });
 }
 
@@ -65,7 +65,7 @@ Answer SimulationLoop::setRealTimeFactor(double factor) {
     const std::optional<std::string> fault = settings_.follows_clock ? kFollows : findFactorFault(factor);
     if (!fault) pacer_.setFactor(factor, std::chrono::steady_clock::now());
     showStatus();
-    reply->set_value(answer(!fault, fault.value_or("applied")));
+    reply->give(answer(!fault, fault.value_or("applied")));
   });
 }
 
@@ -78,14 +78,14 @@ Answer SimulationLoop::load(simulation::Simulation simulation, const simulation:
 Answer SimulationLoop::apply(const simulation::Command& command) {
   return ask([this, command](const Reply& reply) {
     const std::string refusal = applyNow(command).refusal;
-    reply->set_value(answer(refusal.empty(), refusal.empty() ? "applied" : refusal));
+    reply->give(answer(refusal.empty(), refusal.empty() ? "applied" : refusal));
   });
 }
 
 Answer SimulationLoop::save(const std::function<void(simulation::SimulationState)>& take) {
   return ask([this, take](const Reply& reply) {
     take(run_.state());
-    reply->set_value(answer(true, ""));
+    reply->give(answer(true, ""));
   });
 }
 
@@ -93,7 +93,7 @@ Answer SimulationLoop::atBoundary(const std::function<std::optional<std::string>
   return ask([this, action](const Reply& reply) {
     const std::optional<std::string> failure = action(*run_.snapshot());
     showStatus();
-    reply->set_value(answer(!failure, failure.value_or("")));
+    reply->give(answer(!failure, failure.value_or("")));
   });
 }
 
@@ -120,15 +120,10 @@ RunStatus SimulationLoop::status() const {
 }
 
 Answer SimulationLoop::ask(const std::function<void(const Reply&)>& request) {
-  auto reply = std::make_shared<std::promise<Answer>>();
-  std::future<Answer> future = reply->get_future();
-  // The queue must hold the only reference: when it drops the request, the promise breaks and the caller wakes up.
-  queue_.push(Control([request, reply = std::move(reply)] { request(reply); }));
-  try {
-    return future.get();
-  } catch (const std::future_error&) {
-    return {false, "the node is shutting down", 0, {}};
-  }
+  const auto pending = std::make_shared<PendingAnswer>();
+  // The queue must hold the only reference to the replier: when it drops the request, that is the answer.
+  queue_.push(Control([request, reply = std::make_shared<const Replier>(pending)] { request(reply); }));
+  return pending->wait();
 }
 
 Answer SimulationLoop::answer(bool success, const std::string& message) {
@@ -165,19 +160,19 @@ void SimulationLoop::execute(const Command& command) {
 void SimulationLoop::pauseNow(const Reply& reply) {
   abortSteps("pause");
   if (mode_ == Mode::running) setMode(Mode::paused);
-  reply->set_value(answer(true, mode_ == Mode::paused ? "paused" : "was not running: " + message_));
+  reply->give(answer(true, mode_ == Mode::paused ? "paused" : "was not running: " + message_));
 }
 
 void SimulationLoop::resumeNow(const Reply& reply) {
-  if (step_request_) return reply->set_value(answer(false, "a step is under way; pause aborts it"));
+  if (step_request_) return reply->give(answer(false, "a step is under way; pause aborts it"));
   if (mode_ == Mode::finished || mode_ == Mode::fault) {
-    return reply->set_value(answer(false, "reset first: " + message_));
+    return reply->give(answer(false, "reset first: " + message_));
   }
   if (mode_ == Mode::paused) {
     setMode(Mode::running);
     beginRunning();
   }
-  reply->set_value(answer(true, "running"));
+  reply->give(answer(true, "running"));
 }
 
 void SimulationLoop::resetNow() {
@@ -207,11 +202,11 @@ void SimulationLoop::loadNow(const Reply& reply, simulation::Simulation simulati
     setMode(mode_ == Mode::running ? Mode::running : Mode::paused);
   }
   if (mode_ == Mode::running) beginRunning();
-  reply->set_value(answer(true, "at step " + std::to_string(checkpoint.state.step_index)));
+  reply->give(answer(true, "at step " + std::to_string(checkpoint.state.step_index)));
 }
 
 void SimulationLoop::stepNow(const Reply& reply, std::uint32_t steps) {
-  const auto refuse = [&](const std::string& why) { reply->set_value(answer(false, why)); };
+  const auto refuse = [&](const std::string& why) { reply->give(answer(false, why)); };
   if (steps == 0) return refuse("steps is 0; it must be from 1 to " + std::to_string(kMostSteps));
   if (steps > kMostSteps) {
     return refuse("steps is " + std::to_string(steps) + "; it must be from 1 to " + std::to_string(kMostSteps));
@@ -245,14 +240,14 @@ void SimulationLoop::advance() {
   }
   if (step_request_ && ++step_request_->done == step_request_->asked) {
     const StepRequest request = *std::exchange(step_request_, std::nullopt);
-    request.reply->set_value(answer(true, "took " + count(request.done)));
+    request.reply->give(answer(true, "took " + count(request.done)));
   }
 }
 
 void SimulationLoop::abortSteps(const std::string& why) {
   if (!step_request_) return;
   const StepRequest request = *std::exchange(step_request_, std::nullopt);
-  request.reply->set_value(
+  request.reply->give(
       answer(false, "aborted by " + why + " after " + std::to_string(request.done) + " of " + count(request.asked)));
 }
 

@@ -8,13 +8,12 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
-#include <future>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
 
+#include "sensory_growth/ros/answer.h"
 #include "sensory_growth/ros/clock.h"
 #include "sensory_growth/ros/command_queue.h"
 #include "sensory_growth/ros/pacer.h"
@@ -23,14 +22,6 @@
 #include "sensory_growth/simulation/simulation.h"
 
 namespace sensory_growth::node {
-
-/// What a service answers.
-struct Answer {
-  bool success = false;
-  std::string message;
-  std::uint64_t step_index = 0;
-  ros::Time stamp;
-};
 
 class SimulationLoop {
  public:
@@ -85,8 +76,6 @@ class SimulationLoop {
   RunStatus status() const;
 
  private:
-  using Reply = std::shared_ptr<std::promise<Answer>>;
-
   struct StepRequest {
     std::uint32_t asked = 0;
     std::uint32_t done = 0;
