@@ -76,7 +76,8 @@ def orbit(program, law, G, S, push, duration, elements):
 
 def onset(program, law, G, low=0.05, high=7.6, halvings=12, elements=(20, 40)):
     """The weight at which an upright shoot begins to swing by itself, by bisection at two resolutions, extrapolated at
-    second order. The error is half the last bracket, the whole extrapolation, and what reading the rate leaves open."""
+    second order. The error is what the last brackets leave open, the whole extrapolation, and what reading the rate
+    leaves open; that of the frequency also what it changes by over the error of the onset."""
     found = []
     for count in elements:
         growing = disturbed(program, law, G, high, count)
@@ -89,15 +90,16 @@ def onset(program, law, G, low=0.05, high=7.6, halvings=12, elements=(20, 40)):
             bracket[measured["rate"] > 0.0] = middle
         found.append((0.5 * sum(bracket), measured))
     (coarse, before), (fine, measured) = found
-    slope = (disturbed(program, law, G, 1.02 * fine, elements[1])["rate"] - measured["rate"]) / (1.02 * fine - fine)
+    beyond = disturbed(program, law, G, 1.02 * fine, elements[1])
+    slope, frequency_slope = ((beyond[name] - measured[name]) / (0.02 * fine) for name in ("rate", "frequency"))
     shift = (fine - coarse) / 3.0
     frequency_shift = (measured["frequency"] - before["frequency"]) / 3.0
-    half_bracket = (high - low) / 2.0 ** (halvings + 1)
-    error = half_bracket + abs(shift) + measured["rate_error"] / abs(slope)
+    half_brackets = (4.0 + 1.0) / 3.0 * (high - low) / 2.0 ** (halvings + 1)  # of (4 fine - coarse) / 3
+    error = half_brackets + abs(shift) + measured["rate_error"] / abs(slope)
     return {
         "onset": fine + shift,
         "error": error,
         "at_resolutions": [coarse, fine],
         "frequency": measured["frequency"] + frequency_shift,
-        "frequency_error": abs(frequency_shift) + measured["frequency_error"],
+        "frequency_error": abs(frequency_shift) + measured["frequency_error"] + abs(frequency_slope) * error,
     }

@@ -9,7 +9,7 @@
 #include <map>
 #include <string>
 
-#include "ros/heard.h"
+#include "ros/message_log.h"
 #include "ros/node_under_test.h"
 #include "sensory_growth/RemoveOrgan.h"
 #include "sensory_growth/SpawnOrgan.h"
@@ -69,7 +69,7 @@ TEST_F(Organs, AreThereWhenTheServiceAnswersAndGrowAsInTheCore) {
   ASSERT_TRUE(spawned.success) << spawned.message;
   EXPECT_EQ(spawned.step_index, 3u);
   EXPECT_TRUE(isAdvertised("/sensory_growth/organs/late/state"));
-  Heard<OrganState> states("/sensory_growth/organs/late/state");
+  MessageLog<OrganState> states("/sensory_growth/organs/late/state");
   const auto stateOf = [&](std::uint64_t step) {
     return states.waitFor("state of step " + std::to_string(step),
                           [&](const OrganState& s) { return s.step_index == step; });
@@ -111,7 +111,7 @@ TEST_F(Organs, AreRefusedWithAReason) {
 }
 
 TEST_F(Organs, HaveFramesWhileTheyAreThere) {
-  Heard<tf2_msgs::TFMessage> moving("/tf"), fixed("/tf_static");
+  MessageLog<tf2_msgs::TFMessage> moving("/tf"), fixed("/tf_static");
   moving.connect([this] { node_.step(1); });
   fixed.waitFor("base of the shoot", [](const auto& m) { return hasFrame(m, "shoot/base"); });
   ASSERT_TRUE(spawn(organText("late")).success);
@@ -127,12 +127,12 @@ TEST_F(Organs, HaveFramesWhileTheyAreThere) {
   ASSERT_TRUE(node_.step(1).success);
   const auto after = moving.waitFor("tip of the shoot", [](const auto& m) { return hasFrame(m, "shoot/tip"); });
   EXPECT_FALSE(hasFrame(after, "late/tip"));
-  Heard<tf2_msgs::TFMessage> late_joiner("/tf_static");
+  MessageLog<tf2_msgs::TFMessage> late_joiner("/tf_static");
   EXPECT_FALSE(hasFrame(late_joiner.waitFor("latched bases", [](const auto&) { return true; }), "late/base"));
 }
 
 TEST_F(Organs, SendNoTransformTwice) {
-  Heard<tf2_msgs::TFMessage> moving("/tf");
+  MessageLog<tf2_msgs::TFMessage> moving("/tf");
   moving.connect([this] { node_.step(1); });
   std::map<std::string, ros::Time> sent;
   ASSERT_TRUE(spawn(organText("late")).success);
@@ -149,7 +149,7 @@ TEST_F(Organs, SendNoTransformTwice) {
 }
 
 TEST_F(Organs, AreDrawnAndDeleted) {
-  Heard<visualization_msgs::MarkerArray> markers("/sensory_growth/markers");
+  MessageLog<visualization_msgs::MarkerArray> markers("/sensory_growth/markers");
   ASSERT_TRUE(spawn(organText("late")).success);
   markers.waitFor("body", [](const auto& array) { return hasMarker(array, "late/body", Marker::ADD); });
   ASSERT_TRUE(remove("late").success);
@@ -160,7 +160,7 @@ TEST_F(Organs, AreDrawnAndDeleted) {
 }
 
 TEST_F(Organs, HaveDiagnosticsWhileTheyAreThere) {
-  Heard<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
+  MessageLog<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
   const auto tells = [](const diagnostic_msgs::DiagnosticArray& array) {
     return std::any_of(array.status.begin(), array.status.end(), [](const auto& status) {
       return status.name == "sensory_growth: organ late" && status.message == "in equilibrium";

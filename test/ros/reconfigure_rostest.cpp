@@ -13,7 +13,7 @@
 #include <string>
 
 #include "ros/child_process.h"
-#include "ros/heard.h"
+#include "ros/message_log.h"
 #include "ros/node_under_test.h"
 #include "sensory_growth/SetRealTimeFactor.h"
 
@@ -80,8 +80,8 @@ class LiveParameters : public ::testing::Test {
   }
 
   NodeUnderTest node_;
-  Heard<std_msgs::String> told_{"/sensory_growth/parameters"};
-  Heard<Config> updates_{"/sensory_growth/parameter_updates"};
+  MessageLog<std_msgs::String> told_{"/sensory_growth/parameters"};
+  MessageLog<Config> updates_{"/sensory_growth/parameter_updates"};
 };
 
 TEST_F(LiveParameters, AreInEffectWhenTheServiceAnswersAndAreTold) {
@@ -119,7 +119,7 @@ TEST_F(LiveParameters, OfTheRealTimeFactorFollowTheService) {
 }
 
 TEST_F(LiveParameters, OfMarkersAreSeenWhilePaused) {
-  Heard<visualization_msgs::MarkerArray> markers("/sensory_growth/markers");
+  MessageLog<visualization_msgs::MarkerArray> markers("/sensory_growth/markers");
   const auto bodyIs = [](int type) {
     return [type](const visualization_msgs::MarkerArray& array) {
       for (const Marker& marker : array.markers) {
@@ -134,7 +134,7 @@ TEST_F(LiveParameters, OfMarkersAreSeenWhilePaused) {
 }
 
 TEST_F(LiveParameters, AreDescribedWithTheirLimits) {
-  Heard<dynamic_reconfigure::ConfigDescription> heard("/sensory_growth/parameter_descriptions");
+  MessageLog<dynamic_reconfigure::ConfigDescription> heard("/sensory_growth/parameter_descriptions");
   const auto description = heard.waitFor("description", [](const auto&) { return true; });
   std::map<std::string, std::string> types;
   for (const auto& parameter : description.groups.at(0).parameters) types[parameter.name] = parameter.type;

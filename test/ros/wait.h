@@ -8,7 +8,8 @@
 
 namespace sensory_growth::node::testing {
 
-constexpr std::chrono::seconds kPatience{15};
+/// Until a test gives up; long enough for a busy machine and a sanitizer, and no test waits that long when all is well.
+constexpr std::chrono::seconds kPatience{60};
 
 /// For what nothing notifies about, such as the connections of a subscriber.
 template <typename Predicate>
