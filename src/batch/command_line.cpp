@@ -71,12 +71,14 @@ CLI::App* addRun(CLI::App& app, RunOptions& options, std::string& duration) {
   return run;
 }
 
+void addRecordedOptions(CLI::App& command, std::string& recorded, std::string& node) {
+  command.add_option("recorded", recorded, "bag recorded by the node or by run")->required()->check(CLI::ExistingFile);
+  command.add_option("--node", node, "node whose run it is, if the bag holds several")->type_name("NAME");
+}
+
 CLI::App* addReplay(CLI::App& app, ReplayOptions& options) {
   CLI::App* replay = app.add_subcommand("replay", "Runs a bag again, commands included, and compares every state");
-  replay->add_option("recorded", options.recorded, "bag recorded by the node or by run")
-      ->required()
-      ->check(CLI::ExistingFile);
-  replay->add_option("--node", options.node, "node whose run it is, if the bag holds several")->type_name("NAME");
+  addRecordedOptions(*replay, options.recorded, options.node);
   replay->add_option("--bag", options.bag, "bag to record the replay to")->type_name("OUT.bag");
   addFrameOptions(*replay, options.frames);
   addRunOptions(*replay, options.threads, options.quiet);
@@ -85,10 +87,7 @@ CLI::App* addReplay(CLI::App& app, ReplayOptions& options) {
 
 CLI::App* addExport(CLI::App& app, ExportOptions& options) {
   CLI::App* command = app.add_subcommand("export", "Writes the states in a bag to files of other programs");
-  command->add_option("recorded", options.recorded, "bag recorded by the node or by run")
-      ->required()
-      ->check(CLI::ExistingFile);
-  command->add_option("--node", options.node, "node whose run it is, if the bag holds several")->type_name("NAME");
+  addRecordedOptions(*command, options.recorded, options.node);
   addFrameOptions(*command, options.frames);
   command->add_flag("--quiet", options.quiet, "no summary");
   return command;
