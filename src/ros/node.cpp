@@ -76,7 +76,7 @@ Node::Node(const Parameters& parameters, LoadedScenario loaded)
                            [this] { return publishers_.recordingFailure(); }, &counters_, parameters_.clock_mode});
   if (parameters_.interactive_markers) {
     handles_ = std::make_unique<StimulusHandles>(
-        private_node_.resolveName(names::kStimulusHandles), makeMarkerSettings(parameters_, *loop_.snapshot()),
+        private_node_.resolveName(names::kStimulusHandles), publishers_.markerSettings(),
         [this] { return loop_.snapshot(); },
         [this](const auto& command, const auto& header) { intake_.receive(command, header); });
   }
@@ -198,15 +198,19 @@ void Node::startTimers() {
         ros::WallDuration(interval), [action](const ros::WallTimerEvent&) { action(); }, queue);
     timers_.push_back(node_.createWallTimer(options));
   };
-  if (handles_) every(1.0 / parameters_.marker_rate, [this] { handles_->show(); });
   every(0.1, [this] { clock_.keepAlive(); });
   every(
       1.0, [this] { diagnostics_->update(); }, &health_queue_);
   every(1.0, [this] {
     if (live_.now().progress) logProgress();
   });
-  marker_timer_ = node_.createWallTimer(ros::WallDuration(1.0 / parameters_.marker_rate),
-                                        [this](const auto&) { publishers_.showMarkers(loop_.snapshot()); });
+  marker_timer_ =
+      node_.createWallTimer(ros::WallDuration(1.0 / parameters_.marker_rate), [this](const auto&) { showMarkers(); });
+}
+
+void Node::showMarkers() {
+  publishers_.showMarkers(loop_.snapshot());
+  if (handles_) handles_->show(publishers_.markerSettings());
 }
 
 Answer Node::setRealTimeFactor(double factor) {
@@ -220,7 +224,7 @@ Answer Node::setRealTimeFactor(double factor) {
 
 /// Takes parameters into use that have changed while the node runs. Returns why it cannot, or nothing.
 std::optional<std::string> Node::use(const Parameters& before, const Parameters& now) {
-  if (now.real_time_factor != loop_.status().real_time_factor) {
+  if (now.real_time_factor != before.real_time_factor) {
     const Answer answer = loop_.setRealTimeFactor(now.real_time_factor);
     if (!answer.success) return answer.message;
   }

@@ -80,7 +80,10 @@ void Reporter::onCheckpoint(const simulation::Checkpoint& checkpoint, const Snap
   beginHistory(snapshot.epoch);
   origin_ = shared(toMessage(checkpoint, snapshot, parameters_.world_frame));
   send(topics_.checkpoint, snapshot.stamp, *origin_);
-  if (first_) sendBases(snapshot);
+  if (!first_) return;
+  sendBases(snapshot);
+  first_ = std::make_shared<const Snapshot>(snapshot);  // of another scenario, perhaps of another size
+  setMarkerSettings();
 }
 
 void Reporter::onState(const SnapshotPtr& snapshot) {

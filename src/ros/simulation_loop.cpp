@@ -1,6 +1,7 @@
 #include "sensory_growth/ros/simulation_loop.h"
 
 #include <chrono>
+#include <exception>
 #include <utility>
 #include <vector>
 
@@ -134,19 +135,26 @@ Answer SimulationLoop::answer(bool success, const std::string& message) {
 
 void SimulationLoop::run() {
   while (!queue_.isClosed()) {
-    for (const Command& command : queue_.take()) execute(command);
-    if (!wantsStep()) {
-      queue_.wait();
-      continue;
+    try {
+      proceed();
+    } catch (const std::exception& error) {
+      setMode(Mode::fault, error.what());
+      abortSteps(std::string("a fault: ") + error.what());
     }
-    const bool is_paced = !step_request_;
-    const auto now = std::chrono::steady_clock::now();
-    if (is_paced && pacer_.due() && now < *pacer_.due()) {
-      queue_.waitUntil(*pacer_.due());
-      continue;  // what woke the thread comes first; then it is seen again whether the step is due
-    }
-    advance();
   }
+}
+
+/// Does what waits and takes a step if one is due; else waits for either.
+void SimulationLoop::proceed() {
+  for (const Command& command : queue_.take()) execute(command);
+  if (!wantsStep()) return queue_.wait();
+  const bool is_paced = !step_request_;
+  const auto now = std::chrono::steady_clock::now();
+  if (is_paced && pacer_.due() && now < *pacer_.due()) {
+    queue_.waitUntil(*pacer_.due());
+    return;  // what woke the thread comes first; then it is seen again whether the step is due
+  }
+  advance();
 }
 
 void SimulationLoop::execute(const Command& command) {

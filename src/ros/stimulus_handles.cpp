@@ -50,18 +50,16 @@ geometry_msgs::Pose besideTips(const Snapshot& snapshot, const MarkerSettings& s
 
 }  // namespace
 
-StimulusHandles::StimulusHandles(const std::string& topic, const MarkerSettings& settings, Latest latest,
-                                 Receive receive)
-    : settings_(settings),
+StimulusHandles::StimulusHandles(const std::string& topic, MarkerSettingsPtr settings, Latest latest, Receive receive)
+    : settings_(std::move(settings)),
       latest_(std::move(latest)),
       receive_(std::move(receive)),
       server_(topic),
       heartbeat_(kHeartbeat) {
   makeMenus();
-  new_pose_ = besideTips(*latest_(), settings_);
-  server_.insert(makeNewHandle(new_pose_, settings_), [this](const auto& feedback) { onNewHandleFeedback(*feedback); });
-  new_menu_.apply(server_, names::kNewHandle);
-  show();
+  new_pose_ = besideTips(*latest_(), *settings_);
+  drawNewHandle();
+  show(settings_);
 }
 
 void StimulusHandles::makeMenus() {
@@ -87,9 +85,25 @@ void StimulusHandles::makeMenus() {
   });
 }
 
-void StimulusHandles::show() {
+void StimulusHandles::draw(const std::string& name, const Handle& handle) {
+  server_.insert(makeHandle(handle.stimulus, handle.shown, *settings_),
+                 [this](const auto& feedback) { onFeedback(*feedback); });
+  menu_.apply(server_, name);
+}
+
+void StimulusHandles::drawNewHandle() {
+  server_.insert(makeNewHandle(new_pose_, *settings_),
+                 [this](const auto& feedback) { onNewHandleFeedback(*feedback); });
+  new_menu_.apply(server_, names::kNewHandle);
+}
+
+void StimulusHandles::show(const MarkerSettingsPtr& settings) {
   const SnapshotPtr snapshot = latest_();
   eraseGone(*snapshot);
+  if (std::exchange(settings_, settings) != settings) {
+    drawNewHandle();
+    for (const auto& [name, handle] : handles_) draw(name, handle);
+  }
   const rod::Vector3 target = meanTip(*snapshot);
   forEach(snapshot->environment, [&](const StimulusCommand& stimulus) {
     Handle& handle = handles_[handleName(stimulus)];
@@ -108,14 +122,12 @@ void StimulusHandles::follow(const StimulusCommand& in_force, const rod::Vector3
   const std::string name = handleName(in_force);
   const bool is_new = handle.stimulus.id.empty();
   handle.stimulus = in_force;
-  const geometry_msgs::Pose pose = handlePose(in_force, target, settings_);
+  const geometry_msgs::Pose before = std::exchange(handle.shown, handlePose(in_force, target, *settings_));
   if (is_new) {
-    server_.insert(makeHandle(in_force, pose, settings_), [this](const auto& feedback) { onFeedback(*feedback); });
-    menu_.apply(server_, name);
-  } else if (pose != handle.shown) {
-    server_.setPose(name, pose);
+    draw(name, handle);
+  } else if (handle.shown != before) {
+    server_.setPose(name, handle.shown);
   }
-  handle.shown = pose;
 }
 
 void StimulusHandles::eraseGone(const Snapshot& snapshot) {
@@ -167,7 +179,7 @@ void StimulusHandles::move(Handle& handle, const Feedback& feedback) {
   }
   handle.shown = feedback.pose;
   handle.asked_at = latest_();
-  if (feedback.header.frame_id.empty() || feedback.header.frame_id == settings_.frame) handle.stimulus = moved;
+  if (feedback.header.frame_id.empty() || feedback.header.frame_id == settings_->frame) handle.stimulus = moved;
 }
 
 void StimulusHandles::setStrength(const Feedback& feedback, const std::function<double(double)>& change) {

@@ -1,9 +1,11 @@
 /// A clock that somebody else owns, here the test: steps are taken as it goes on, and it may jump.
 
+#include <dynamic_reconfigure/Reconfigure.h>
 #include <gtest/gtest.h>
 #include <rosgraph_msgs/Clock.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "ros/bag_contents.h"
@@ -58,6 +60,15 @@ TEST_F(Follow, StepsAreTakenAsTheClockGoesOn) {
   const SetRealTimeFactor::Response factor = node.setRealTimeFactor(2.0);
   EXPECT_FALSE(factor.success);
   EXPECT_NE(factor.message.find("~clock_mode is follow"), std::string::npos) << factor.message;
+
+  dynamic_reconfigure::Reconfigure::Request looks;
+  looks.config.strs.resize(1);
+  looks.config.strs[0].name = "marker_style";
+  looks.config.strs[0].value = "line";
+  const auto changed = node.call<dynamic_reconfigure::Reconfigure>("set_parameters", looks).config;
+  EXPECT_TRUE(std::any_of(changed.strs.begin(), changed.strs.end(), [](const auto& parameter) {
+    return parameter.name == "marker_style" && parameter.value == "line";
+  }));
 
   // Back in time: one node begins anew, with another bag; the other goes on from where it is.
   StartRecording::Request start;

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <std_msgs/String.h>
 #include <unistd.h>
+#include <visualization_msgs/InteractiveMarkerUpdate.h>
 #include <visualization_msgs/MarkerArray.h>
 #include <yaml-cpp/yaml.h>
 
@@ -131,6 +132,26 @@ TEST_F(LiveParameters, OfMarkersAreSeenWhilePaused) {
   markers.waitFor("tube", bodyIs(Marker::TRIANGLE_LIST));
   set("marker_style", std::string("line"));
   markers.waitFor("line", bodyIs(Marker::LINE_STRIP));
+}
+
+TEST_F(LiveParameters, OfLampsResizeTheirHandles) {
+  MessageLog<visualization_msgs::InteractiveMarkerUpdate> updates("/sensory_growth/stimulus_handles/update");
+  updates.connect([] {});  // the heartbeat
+  const auto diameterFor = [&](double lamp_diameter) {
+    updates.forget();
+    set("marker_lamp_diameter", lamp_diameter);
+    const auto drawn =
+        updates.waitFor("a handle drawn anew", [](const auto& update) { return !update.markers.empty(); });
+    for (const auto& control : drawn.markers.at(0).controls) {
+      for (const Marker& marker : control.markers) {
+        if (marker.type == Marker::SPHERE) return marker.scale.x;
+      }
+    }
+    return 0.0;
+  };
+  const double diameter = diameterFor(0.02);
+  EXPECT_GT(diameter, 0.02);  // it can be grasped
+  EXPECT_DOUBLE_EQ(diameterFor(0.04), 2.0 * diameter);
 }
 
 TEST_F(LiveParameters, AreDescribedWithTheirLimits) {

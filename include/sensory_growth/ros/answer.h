@@ -38,12 +38,12 @@ class PendingAnswer {
   std::optional<Answer> answer_;
 };
 
-/// The end that answers. Whoever drops it without a word has said that the node is shutting down, so nobody waits for
-/// a request that was dropped from the queue.
+/// The end that answers. Whoever drops it without a word has said that nothing was done, so nobody waits for a
+/// request that was dropped from the queue.
 class Replier {
  public:
   explicit Replier(std::shared_ptr<PendingAnswer> pending) : pending_(std::move(pending)) {}
-  ~Replier() { pending_->give({false, "the node is shutting down", 0, {}}); }
+  ~Replier() { pending_->give({false, "not done: the node is shutting down, or in a fault (see ~status)", 0, {}}); }
   Replier(const Replier&) = delete;
   Replier& operator=(const Replier&) = delete;
 

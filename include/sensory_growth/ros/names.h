@@ -86,7 +86,6 @@ inline constexpr char kLegendMarker[] = "legend";
 // Loggers, children of ros.sensory_growth.
 inline constexpr char kLogSimulation[] = "sim";
 inline constexpr char kLogRos[] = "ros";
-inline constexpr char kLogCheckpoint[] = "checkpoint";
 inline constexpr char kLogRecording[] = "recording";
 
 }  // namespace sensory_growth::node::names

@@ -60,6 +60,7 @@ class Node {
   void stopRecording(StopRecording::Response& response);
   void advertiseServices();
   void startTimers();
+  void showMarkers();
   Answer setRealTimeFactor(double factor);
   std::optional<std::string> use(const Parameters& before, const Parameters& now);
   void logProgress() const;

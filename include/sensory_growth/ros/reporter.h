@@ -63,6 +63,9 @@ class Reporter : public RunListener {
   void onStimuli(const Snapshot& snapshot) override;
   void onStatus(const RunStatus& status, const Snapshot& snapshot) override;
 
+  /// How markers look at present; null before the first state. From any thread.
+  MarkerSettingsPtr markerSettings() const;
+
   /// A checkpoint of the run at that state. On the thread of the run.
   simulation::Checkpoint checkpointOf(simulation::SimulationState state) const;
 
@@ -109,9 +112,6 @@ class Reporter : public RunListener {
   /// Publishes the texts that the run started from.
   void publishSources();
 
-  /// How markers look at present; null before the first state. From any thread.
-  MarkerSettingsPtr markerSettings() const;
-
   Parameters parameters_;  // of the run's thread alone once there is a run
   Sources sources_;        // the same
   const Topics topics_;
@@ -139,7 +139,7 @@ class Reporter : public RunListener {
   const StimulusCounters& counters_;
 
   // Of the run's thread alone.
-  SnapshotPtr first_;                    // state at the start
+  SnapshotPtr first_;                    // state at the start, or that of the checkpoint that was loaded last
   std::map<std::string, Topic> states_;  // by organ
   Recorder recorder_;
   std::optional<MarkerStream> recorded_markers_;

@@ -1,7 +1,7 @@
 #pragma once
 
 /// The thread that owns the simulation: it takes commands at step boundaries, steps at the pace asked for, and shows
-/// every state to one listener. It calls ROS only for the clock.
+/// every state to one listener.
 
 #include <ros/time.h>
 
@@ -86,6 +86,7 @@ class SimulationLoop {
   Answer answer(bool success, const std::string& message);
 
   void run();
+  void proceed();
   void execute(const Command& command);
   void pauseNow(const Reply& reply);
   void resumeNow(const Reply& reply);

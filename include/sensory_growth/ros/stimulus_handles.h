@@ -27,10 +27,10 @@ class StimulusHandles {
   using Receive = std::function<void(const simulation::StimulusCommand&, const std_msgs::Header&)>;
 
   /// `topic` is the resolved namespace of the server's topics.
-  StimulusHandles(const std::string& topic, const MarkerSettings& settings, Latest latest, Receive receive);
+  StimulusHandles(const std::string& topic, MarkerSettingsPtr settings, Latest latest, Receive receive);
 
   /// Makes the handles those of the stimuli in force, and shows what changed.
-  void show();
+  void show(const MarkerSettingsPtr& settings);
 
  private:
   using Feedback = visualization_msgs::InteractiveMarkerFeedback;
@@ -44,6 +44,8 @@ class StimulusHandles {
   };
 
   void makeMenus();
+  void draw(const std::string& name, const Handle& handle);
+  void drawNewHandle();
   void follow(const simulation::StimulusCommand& in_force, const rod::Vector3& target, Handle& handle);
   void eraseGone(const Snapshot& snapshot);
   static bool isHeld(const Handle& handle);
@@ -56,7 +58,7 @@ class StimulusHandles {
   void add(simulation::StimulusKind kind, const rod::Vector3& vector, const Feedback& feedback);
   std::string freeId(simulation::StimulusKind kind);  // never given before
 
-  const MarkerSettings settings_;
+  MarkerSettingsPtr settings_;
   const Latest latest_;
   const Receive receive_;
   interactive_markers::InteractiveMarkerServer server_;
