@@ -35,7 +35,7 @@ void forEach(const rosbag::Bag& bag, const std::string& topic, const Visit& visi
   }
 }
 
-/// The only text of a latched topic; empty if there is none.
+/// The last text of a latched topic; empty if there is none.
 std::string readText(const rosbag::Bag& bag, const std::string& topic) {
   std::string text;
   forEach<std_msgs::String>(bag, topic, [&](const std_msgs::String& message) { text = message.data; });

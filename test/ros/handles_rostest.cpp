@@ -215,8 +215,8 @@ TEST_F(Handles, ALightIsTurned) {
 TEST_F(Handles, HundredsOfMovesWithinAStepAreOneChange) {
   constexpr int kMoves = 300;
   addLamp(0.1);
-  const Status before = node_.waitForStatus("status", [](const Status&) { return true; });
   ASSERT_TRUE(node_.command("resume").success);  // the first step is due in eleven days
+  const Status before = node_.waitForStatus("running", [](const Status& s) { return s.mode == Status::RUNNING; });
   for (int i = 1; i <= kMoves; ++i) {
     rviz_.send(node_, rviz_.feedback("point_source/lamp", InteractiveMarkerFeedback::POSE_UPDATE,
                                      poseAt(0.1 + 1e-4 * i, 0.0, 0.05)));

@@ -15,7 +15,7 @@ import yaml
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
-PATIENCE = 15  # s of wall time
+PATIENCE = 60  # s of wall time
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "node_api.md"
 # What every node of roscpp has.
 ROSCPP = {"/rosout"}

@@ -7,8 +7,6 @@
 
 #include <chrono>
 #include <condition_variable>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <mutex>
 #include <string>
@@ -46,17 +44,19 @@ class NodeUnderTest {
  public:
   explicit NodeUnderTest(const std::string& name = "/sensory_growth", const std::string& organ = "shoot")
       : node_(name) {
+    // First what is not latched: when the others have come, it is connected, too.
+    subscribe<AppliedCommand>("applied_commands",
+                              [this](const AppliedCommand& command) { applied_.push_back(command); });
+    subscribe<Stimuli>("stimuli", [this](const Stimuli& stimuli) { stimuli_ = stimuli; });
+    subscribe<Status>("status", [this](const Status& status) { status_ = status; });
     subscribe<OrganState>("organs/" + organ + "/state", [this](const OrganState& state) {
       states_[{epoch_, state.step_index}] = state;
     });
-    subscribe<Status>("status", [this](const Status& status) { status_ = status; });
-    subscribe<Stimuli>("stimuli", [this](const Stimuli& stimuli) { stimuli_ = stimuli; });
-    subscribe<AppliedCommand>("applied_commands",
-                              [this](const AppliedCommand& command) { applied_.push_back(command); });
     for (const ros::Subscriber& subscriber : subscribers_) {
       lookUntil("a publisher of " + subscriber.getTopic(), [&] { return subscriber.getNumPublishers() > 0; });
     }
     waitForStatus("first status", [](const Status& status) { return status.mode != Status::UNKNOWN; });
+    wait("a first state", [this] { return !states_.empty(); });
   }
 
   ros::NodeHandle& handle() { return node_; }
