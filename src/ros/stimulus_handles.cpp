@@ -97,10 +97,11 @@ void StimulusHandles::drawNewHandle() {
   new_menu_.apply(server_, names::kNewHandle);
 }
 
-void StimulusHandles::show(const MarkerSettingsPtr& settings) {
+void StimulusHandles::show(MarkerSettingsPtr settings) {
   const SnapshotPtr snapshot = latest_();
   eraseGone(*snapshot);
-  if (std::exchange(settings_, settings) != settings) {
+  if (settings != settings_) {
+    settings_ = std::move(settings);
     drawNewHandle();
     for (const auto& [name, handle] : handles_) draw(name, handle);
   }

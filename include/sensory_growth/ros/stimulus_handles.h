@@ -30,7 +30,7 @@ class StimulusHandles {
   StimulusHandles(const std::string& topic, MarkerSettingsPtr settings, Latest latest, Receive receive);
 
   /// Makes the handles those of the stimuli in force, and shows what changed.
-  void show(const MarkerSettingsPtr& settings);
+  void show(MarkerSettingsPtr settings);
 
  private:
   using Feedback = visualization_msgs::InteractiveMarkerFeedback;
