@@ -3,7 +3,6 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include <atomic>
 #include <exception>
 #include <mutex>
 #include <stdexcept>
@@ -56,18 +55,7 @@ void Workers::forEach(std::size_t count, const std::function<void(std::size_t)>&
   if (!arena_ || count < 2) {
     for (std::size_t i = 0; i < count; ++i) one(i);
   } else {
-    // What oneTBB orders, said once more where a thread sanitizer sees it: it cannot look into the library.
-    std::atomic<bool> has_begun{false};
-    std::atomic<std::size_t> done{0};
-    has_begun.store(true, std::memory_order_release);
-    arena_->arena.execute([&] {
-      tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-        has_begun.load(std::memory_order_acquire);
-        one(i);
-        done.fetch_add(1, std::memory_order_release);
-      });
-    });
-    done.load(std::memory_order_acquire);
+    arena_->arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, one); });
   }
   error.rethrow();
 }

@@ -35,7 +35,7 @@ TEST(Transforms, BaseIsStaticAndTipAndStationsMove) {
 TEST(Transforms, RotationsAreNormalised) {
   auto snapshot = testing::snapshotOf("stem");
   snapshot->organs[0].rod.base.frame.coeffs() *= 1.001;
-  const auto& q = staticTransforms(*snapshot, {}).transforms.at(0).transform.rotation;
+  const auto q = staticTransforms(*snapshot, {}).transforms.at(0).transform.rotation;
   EXPECT_NEAR(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w, 1.0, 1e-12);
 }
 

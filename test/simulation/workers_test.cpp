@@ -6,12 +6,19 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
+#include <functional>
 #include <mutex>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "sensory_growth/simulation/checksum.h"
+#include "sensory_growth/simulation/scenario_yaml.h"
+#include "sensory_growth/simulation/simulation.h"
 
 namespace sensory_growth::simulation {
 namespace {
@@ -65,6 +72,22 @@ TEST(Workers, FinishTheOthersAndReportTheFirstError) {
 }
 
 TEST(Workers, RefuseANegativeNumberOfThreads) { EXPECT_THROW(Workers(-1), std::invalid_argument); }
+
+// Threads of the standard library, because a thread sanitizer does not see what oneTBB orders.
+TEST(Simulations, InThreadsDoNotMeet) {
+  const auto grow = [](std::uint64_t& sum) {
+    Simulation simulation(loadScenario("../config/dodder_and_host.yaml"), 1);
+    for (int i = 0; i < 20; ++i) ASSERT_TRUE(simulation.step().ok);
+    sum = checksum(simulation);
+  };
+  std::uint64_t alone = 0, first = 0, second = 0;
+  grow(alone);
+  std::thread other(grow, std::ref(first));
+  grow(second);
+  other.join();
+  EXPECT_EQ(first, alone);
+  EXPECT_EQ(second, alone);
+}
 
 }  // namespace
 }  // namespace sensory_growth::simulation
