@@ -8,69 +8,100 @@ from comparison.modes import leading_mode
 STEP = 0.02  # law 2 is stepped explicitly in what weight adds to it, up to 25 times as much on this grid
 SMALL = 0.02  # lateral tangent up to which a motion counts as linear
 SETTLED = np.radians(1.0)
-RESTING = np.radians(0.01)
+RESTING = 2e-4  # of the length: what no place moves by in the last tenth of a record
+RESOLVED = 0.5  # [rad] at one bend; beyond that a shape is not shown
 
 
-def disturbed(program, law, G, S, elements=40, duration=120.0, push=1e-5, step=STEP):
-    """Rate and frequency of an upright shoot after a push, with the spread over two parts of the record as error. One
-    that moves fast is watched again more closely."""
+def disturbed(program, law, G, S, elements=40, duration=None, push=1e-5, step=STEP):
+    """How an upright shoot goes on after a push: the rate of its size over the later half of the record; under
+    relaxation also rate and frequency of the strongest mode over the last 0.6, with what two halves of that differ by
+    as error. One that moves fast is watched again more closely."""
     every = 5
+    duration = duration or (120.0 if law == "relaxation" else 40.0)
     content = shoot.scenario(law, G, S, [0, 0, 1], duration, step, elements, push)
     centrelines, _ = shoot.grow(program, content, every)
     lateral = shoot.tangents(centrelines) @ np.array([1.0, 1.0j, 0.0])
     start = round(shoot.FLASHES_END / (every * step)) + 1
-    size = np.max(np.abs(lateral), axis=1)
-    begin = size[start]
-    usable = np.flatnonzero((size[start:] > SMALL) | (size[start:] < 1e-4 * begin))
-    end = start + (usable[0] if len(usable) else len(size) - start)
+    large = np.flatnonzero(np.max(np.abs(lateral[start:]), axis=1) > SMALL)
+    end = start + large[0] if len(large) else len(lateral)
     if end - start < 40:
         return disturbed(program, law, G, S, elements, 0.2 * duration, push, 0.2 * step)
-    estimates = []
-    for part in (0.4, 0.6):
-        first = start + int(part * (end - start))
-        estimates.append(leading_mode(lateral[first:end].T, every * step))
-    (rate, frequency), spread = estimates[0], np.ptp(estimates, axis=0)
+    later = np.arange((start + end) // 2, end)
+    size = np.sqrt(np.mean(np.abs(lateral[later]) ** 2, axis=1))
+    late = {
+        "late_rate": float(np.polyfit(later * every * step, np.log(size), 1)[0]),
+        "late_times": [float(later[0] * every * step), float(later[-1] * every * step)],
+    }
+    if law != "relaxation":
+        return late
+    at = [start + int(part * (end - start)) for part in (0.4, 0.7, 1.0)]
+    parts = ((at[0], at[2]), (at[0], at[1]), (at[1], at[2]))
+    mode, *halves = [leading_mode(lateral[first:last].T, every * step) for first, last in parts]
     names = ("rate", "frequency", "rate_error", "frequency_error")
-    return dict(zip(names, map(float, (rate, frequency, *spread))))
+    return late | dict(zip(names, map(float, (*mode, *np.ptp(halves, axis=0)))))
 
 
-def laid(program, law, G, S, elements=80, duration=40.0):
-    """A straight shoot laid on its side: where it comes to rest, how far beyond it went, how long that took."""
-    step, every = 0.05, 2
+def beyond_upright(angle):
+    """How far the first swing of a tip goes beyond upright."""
+    passed = np.flatnonzero(angle < 0.0)
+    if not len(passed):
+        return 0.0
+    swing = angle[passed[0] :]
+    lowest = np.minimum.accumulate(swing)
+    back = np.flatnonzero(swing > lowest + np.radians(0.5))
+    return float(-lowest[back[0] if len(back) else -1])
+
+
+def laid(program, law, G, S, elements=80, step=0.05):
+    """A straight shoot laid on its side: whether and where it comes to rest, how far beyond that and beyond upright it
+    went, how long it took. What happens between two steps is seen, too, except under relaxation, where a shoot at a
+    horizontal clamp never rests; that one is followed until it is wound up."""
+    duration, every = (600.0 / G, 4) if law == "relaxation" else (40.0, 1)
     content = shoot.scenario(law, G, S, [1, 0, 0], duration, step, elements)
     centrelines, ended = shoot.grow(program, content, every)
     tangent = shoot.tip_tangents(centrelines)
     angle = np.unwrap(np.arctan2(tangent[:, 0], tangent[:, 2]))  # from upright, towards where the base points
-    resting = ended and np.ptp(angle[-len(angle) // 10 :]) < RESTING
+    last = centrelines[-len(centrelines) // 10 :]
+    resting = ended and np.max(np.abs(last - last[-1])) < RESTING
     away = np.flatnonzero(np.abs(angle - angle[-1]) > SETTLED)
+    unresolved = np.flatnonzero(shoot.largest_turns(centrelines) > RESOLVED)
+    shown = unresolved[0] if len(unresolved) else len(centrelines)
+    thinned = 4 // every
     return {
+        "ended": ended,
+        "end_time": (len(centrelines) - 1) * step * every,
         "rests": bool(resting),
+        "largest_jump": float(np.max(np.linalg.norm(np.diff(last, axis=0), axis=2))),  # of any place between frames
         "tip_angle": float(np.degrees(angle[-1])),
-        "tip": [float(value) for value in centrelines[-1, -1]],
+        "tip": centrelines[-1, -1].tolist(),
         "aside": float(np.max(np.abs(centrelines[-1, :, 1]))),  # out of the plane it was laid in
         "overshoot": float(np.degrees(max(0.0, angle[-1] - np.min(angle)))) if resting else None,
-        "beyond_upright": float(np.degrees(max(0.0, -np.min(angle)))),
+        "beyond_upright": np.degrees(beyond_upright(angle)),
         "settling_time": float((away[-1] + 1) * step * every) if resting and len(away) else None,
-        "angles": [round(float(value), 3) for value in np.degrees(angle)],
-        "frame_time": step * every,
-        "shape": [[round(float(x), 5) for x in point] for point in centrelines[-1, :, [0, 2]].T],
+        "angles": np.round(np.degrees(angle[:shown:thinned]), 3).tolist(),
+        "frame_time": step * every * thinned,
+        "shape": np.round(centrelines[shown - 1][:, [0, 2]], 5).tolist(),
     }
 
 
-def orbit(program, law, G, S, push, duration, elements):
-    """A shoot pushed so far that its motion is no longer small: its tip over time, and its largest curvature."""
-    step, every = 0.05, 4
+def restless(program, law, G, S, steps=(0.1, 0.05, 0.02, 0.01)):
+    """Whether what a shoot laid on its side does at the end depends on the step of time."""
+    runs = [laid(program, law, G, S, step=step) for step in steps]
+    kept = ("rests", "largest_jump", "tip")
+    return {"runs": [{"step": step} | {key: run[key] for key in kept} for step, run in zip(steps, runs)]}
+
+
+def orbit(program, law, G, S, push, duration, elements, step):
+    """A shoot pushed so far that its motion is no longer small: its tip, its sharpest bend and its twist over time."""
+    every = round(0.2 / step)
     content = shoot.scenario(law, G, S, [0, 0, 1], duration, step, elements, push)
-    centrelines, ended = shoot.grow(program, content, every)
-    turns = np.arccos(
-        np.clip(np.sum(np.diff(shoot.tangents(centrelines), axis=1) ** 2, axis=2) / -2.0 + 1.0, -1.0, 1.0)
-    )
+    tips, curvatures, ended = shoot.record(program, content, every)
     return {
         "ended": ended,
         "frame_time": step * every,
-        "tip": np.round(centrelines[:, -1], 4).tolist(),
-        "largest_curvature": np.round(elements * turns.max(axis=1), 3).tolist(),
-        "shape": np.round(centrelines[-1], 5).tolist(),
+        "tip": np.round(tips, 4).tolist(),
+        "bending": np.round(np.max(np.hypot(curvatures[:, :, 0], curvatures[:, :, 1]), axis=1), 4).tolist(),
+        "twist": np.round(np.max(np.abs(curvatures[:, :, 2]), axis=1), 4).tolist(),
     }
 
 
@@ -82,7 +113,7 @@ def onset(program, law, G, low=0.05, high=7.6, halvings=12, elements=(20, 40)):
     for count in elements:
         growing = disturbed(program, law, G, high, count)
         if growing["rate"] <= 0.0:
-            return {"onset": None, "rate_below_greenhill": growing["rate"]}
+            return {"onset": None, "heaviest": high, "rate_there": growing["rate"]}
         bracket = [low, high]
         for _ in range(halvings):
             middle = 0.5 * sum(bracket)

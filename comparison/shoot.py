@@ -5,12 +5,14 @@ R / (gamma e_g). G is what it rights itself by over what it straightens by, beta
 stiffness, rho g A L^3 / (E I). A radius of 5 cm, a length of 1 m and E I = 1 N m^2 stand for the units.
 """
 
+import itertools
 import math
 import pathlib
 import subprocess
 import tempfile
 
 import numpy as np
+import rosbag
 import yaml
 
 LAWS = {"intrinsic": "intrinsic_length", "actual": "actual_length", "relaxation": "relaxation_length"}
@@ -58,25 +60,52 @@ def scenario(law, G, S, base, duration, step, elements, push=0.0):
     }
 
 
+def run(program, content, folder, *outputs):
+    """Runs a scenario; returns whether it came to its end. An organ that curls up or twists tighter than its elements
+    resolve does not."""
+    path = pathlib.Path(folder) / "scenario.yaml"
+    path.write_text(yaml.safe_dump(content, sort_keys=False), encoding="utf-8")
+    command = [program, "run", path, *outputs, "--threads", 1, "--growth-time-scale", 1, "--quiet"]
+    done = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False)
+    if done.returncode not in (0, 1) or (done.returncode == 1 and "unresolved_bend" not in done.stderr):
+        raise RuntimeError(f"{program} ended with {done.returncode}: {done.stderr.strip()}")
+    return done.returncode == 0
+
+
 def grow(program, content, every=1):
-    """Runs a scenario: centrelines as an array of frames, vertices, coordinates, and whether it came to its end. An
-    organ that curls up tighter than its elements resolve does not."""
+    """Centrelines as an array of frames, vertices, coordinates, and whether the run came to its end."""
     with tempfile.TemporaryDirectory() as folder:
-        path = pathlib.Path(folder) / "scenario.yaml"
-        path.write_text(yaml.safe_dump(content, sort_keys=False), encoding="utf-8")
-        command = [program, "run", path, "--csv", folder, "--every", str(every), "--threads", "1", "--quiet"]
-        command += ["--growth-time-scale", "1"]
-        done = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False)
-        if done.returncode not in (0, 1) or (done.returncode == 1 and "unresolved_bend" not in done.stderr):
-            raise RuntimeError(f"{program} ended with {done.returncode}: {done.stderr.strip()}")
+        ended = run(program, content, folder, "--csv", folder, "--every", every)
         table = np.loadtxt(pathlib.Path(folder) / "shoot.csv", delimiter=",", skiprows=1)
     vertices = content["organs"][0]["elements"] + 1
-    return table[:, 1:].reshape(-1, vertices, 3), done.returncode == 0
+    return table[:, 1:].reshape(-1, vertices, 3), ended
+
+
+def record(program, content, every):
+    """Positions of the tip, curvature and twist at every bend (frames, bends, components along the directors), and
+    whether the run came to its end."""
+    tips, curvatures = [], []
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "run.bag"
+        ended = run(program, content, folder, "--bag", path, "--marker-every", 0)
+        with rosbag.Bag(str(path)) as bag:
+            states = bag.read_messages(topics="/sensory_growth/organs/shoot/state", raw=True)
+            for _, (_, data, _, _, message), _ in itertools.islice(states, 0, None, every):
+                state = message().deserialize(data)
+                tips.append([state.positions[-1].x, state.positions[-1].y, state.positions[-1].z])
+                curvatures.append([[bend.x, bend.y, bend.z] for bend in state.curvature])
+    return np.array(tips), np.array(curvatures), ended
 
 
 def tangents(centrelines):
     edges = np.diff(centrelines, axis=1)
     return edges / np.linalg.norm(edges, axis=2, keepdims=True)
+
+
+def largest_turns(centrelines):
+    """Largest angle between neighbouring edges, frame by frame."""
+    chords = np.linalg.norm(np.diff(tangents(centrelines), axis=1), axis=2)
+    return 2.0 * np.max(np.arcsin(np.minimum(0.5 * chords, 1.0)), axis=1)
 
 
 def tip_tangents(centrelines):

@@ -10,6 +10,8 @@ what lies above pulls. Rest curvature is theta' - u, so that a mode exp(lambda t
 with theta(0) = 0. Chebyshev collocation; independent of the simulator.
 """
 
+import functools
+
 import numpy as np
 from scipy.optimize import brentq
 
@@ -47,6 +49,7 @@ def leading_mode(G, S, points=POINTS):
     return modes[0] if len(modes) else None
 
 
+@functools.lru_cache(maxsize=None)
 def onset(G):
     """S_H and frequency at which an upright shoot under strain relaxation begins to oscillate, or None below the weight
     under which it falls over anyway."""
@@ -55,10 +58,27 @@ def onset(G):
         mode = leading_mode(G, S)
         return -1.0 if mode is None else mode.real
 
-    weights = np.linspace(0.2, 7.8, 77)
+    weights = np.linspace(0.2, 7.83, 78)
     values = [growth(S) for S in weights]
     for low, high, before, after in zip(weights, weights[1:], values, values[1:]):
         if before < 0.0 <= after:
             S = brentq(growth, low, high, xtol=1e-10)
             return S, abs(leading_mode(G, S).imag)
     return None
+
+
+def last_onset():
+    """G up to which there is an onset below Greenhill's load, to a hundredth."""
+    low, high = 3.0, 3.4
+    while high - low > 0.01:
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if onset(middle) else (low, middle)
+    return low
+
+
+def rest_tip(G, base=0.5 * np.pi):
+    """Tip (x, z) of the one shape in which growth stops under the law of actual curvature, tan(A/2) = tan(base/2)
+    exp(-G s), whatever the weight."""
+    s = np.linspace(0.0, 1.0, 2001)
+    angle = 2.0 * np.arctan(np.tan(0.5 * base) * np.exp(-G * s))
+    return np.array([np.trapz(np.sin(angle), s), np.trapz(np.cos(angle), s)])
