@@ -45,7 +45,7 @@ Node::Node(const Parameters& parameters, LoadedScenario loaded)
       private_node_("~"),
       clock_({parameters.clock_mode, step_, parameters.clock_rate, parameters.reset_time}, node_),
       publishers_(parameters, loaded.sources, counters_, private_node_),
-      world_(parameters.world_frame),
+      world_(parameters.world_frame, step_),
       intake_(node_, private_node_, world_, counters_,
               {[this](const simulation::StimulusCommand& command) { return loop_.send(command); },
                [this] { loop_.refreshStatus(); }}),

@@ -18,7 +18,8 @@ Publishers::Publishers(const Parameters& parameters, const Sources& sources, con
                        ros::NodeHandle private_node)
     : Reporter(parameters, sources, counters,
                [private_node](const std::string& name) { return private_node.resolveName(name); }),
-      node_(std::move(private_node)) {
+      node_(std::move(private_node)),
+      refusals_(std::chrono::seconds(1)) {
   advertise<Status>(topics_.status, kQueue);
   advertise<Stimuli>(topics_.stimuli, kQueue);
   advertise<AppliedCommand>(topics_.applied, kQueue);
@@ -33,7 +34,11 @@ Publishers::Publishers(const Parameters& parameters, const Sources& sources, con
 
 void Publishers::onCommand(const simulation::AppliedCommand& command, const Snapshot& snapshot) {
   Reporter::onCommand(command, snapshot);
-  if (!command.refusal.empty()) ROS_WARN_STREAM_NAMED(names::kLogSimulation, "command refused: " << command.refusal);
+  if (command.refusal.empty()) return;
+  ++refused_;
+  if (refusals_.due()) {
+    ROS_WARN_STREAM_NAMED(names::kLogSimulation, "command refused (" << refused_ << " so far): " << command.refusal);
+  }
 }
 
 void Publishers::showMarkers(const SnapshotPtr& snapshot) {

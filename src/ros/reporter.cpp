@@ -37,11 +37,7 @@ std::uint8_t toConstant(Mode mode) {
   return Status::UNKNOWN;
 }
 
-constexpr std::size_t kMostCommandsKept = 100000;  // some 40 MB
-
-const std::string kHistoryIsCut = "more commands were taken since the last reset than are kept (" +
-                                  std::to_string(kMostCommandsKept) +
-                                  "), so the bag would not hold the whole run; record from the start, or reset";
+constexpr std::size_t kLongestHistory = 4 * 1024 * 1024;  // [byte]
 
 }  // namespace
 
@@ -115,9 +111,10 @@ void Reporter::onOrgans(const SnapshotPtr& snapshot) {
 }
 
 void Reporter::onCommand(const simulation::AppliedCommand& command, const Snapshot& snapshot) {
-  Message message = shared(toMessage(command, snapshot, parameters_.world_frame));
+  const auto message = shared(toMessage(command, snapshot, parameters_.world_frame));
   send(topics_.applied, snapshot.stamp, message);
-  keep(std::move(message));
+  history_.push_back(message);
+  history_size_ += ros::serialization::serializationLength(*message);
 }
 
 void Reporter::onStimuli(const Snapshot& snapshot) {
@@ -144,8 +141,15 @@ void Reporter::onStatus(const RunStatus& status, const Snapshot& snapshot) {
   message.recording = recorder_.path();
   const Message shown = shared(std::move(message));
   send(topics_.status, snapshot.stamp, shown);
-  if (!recorder_.isFull() || history_is_cut_) return;
-  if (!splitRecording(snapshot)) record(topics_.status, snapshot.stamp, shown);
+  if (recorder_.isFull() && !splitRecording(snapshot)) record(topics_.status, snapshot.stamp, shown);
+}
+
+/// However many commands are taken, a bag begins with few: of a long history the state that it led to is enough.
+void Reporter::onSettled(const Run& run) {
+  if (history_size_ <= kLongestHistory) return;
+  const SnapshotPtr snapshot = run.snapshot();
+  beginHistory(snapshot->epoch);
+  origin_ = shared(toMessage(checkpointOf(run.state()), *snapshot, parameters_.world_frame));
 }
 
 simulation::Checkpoint Reporter::checkpointOf(simulation::SimulationState state) const {
@@ -160,7 +164,6 @@ void Reporter::setParameters(const Parameters& parameters, const Snapshot& snaps
 }
 
 std::optional<std::string> Reporter::startRecording(const std::string& file, const Snapshot& snapshot) {
-  if (history_is_cut_) return kHistoryIsCut;
   if (auto refusal = recorder_.start(file.empty() ? datedFile(snapshot) : file)) return refusal;
   beginBag(snapshot);
   recordState(snapshot);
@@ -168,7 +171,6 @@ std::optional<std::string> Reporter::startRecording(const std::string& file, con
 }
 
 std::optional<std::string> Reporter::splitRecording(const Snapshot& snapshot) {
-  if (recorder_.recording() && history_is_cut_) return kHistoryIsCut;
   if (auto refusal = recorder_.split()) return refusal;
   beginBag(snapshot);
   recordState(snapshot);
@@ -236,7 +238,7 @@ void Reporter::record(const Topic& topic, const ros::Time& stamp, const Message&
 void Reporter::beginHistory(std::uint32_t epoch) {
   origin_.reset();
   history_.clear();
-  history_is_cut_ = false;
+  history_size_ = 0;
   history_epoch_ = epoch;
 }
 
@@ -256,14 +258,7 @@ void Reporter::goBack(const Snapshot& snapshot) {
   // Listeners forget what they hold when time runs backwards, and a bag in which it does cannot be played.
   publishSources();
   publish(topics_.tf_static, shared(staticTransforms(snapshot, frames_)));
-  if (!recorder_.recording()) return;
-  if (history_is_cut_) return recorder_.stop(kHistoryIsCut);
-  if (!recorder_.split()) beginBag(snapshot);
-}
-
-void Reporter::keep(Message command) {
-  history_is_cut_ = history_.size() == kMostCommandsKept;
-  if (!history_is_cut_) history_.push_back(std::move(command));
+  if (recorder_.recording() && !recorder_.split()) beginBag(snapshot);
 }
 
 void Reporter::beginBag(const Snapshot& snapshot) {

@@ -43,18 +43,22 @@ simulation::StepReport Run::step() {
   setSnapshot(next_stamp_());
   listener_.onState(snapshot_);
   if (has_applied) listener_.onStimuli(*snapshot_);
+  listener_.onSettled(*this);
   return report;
 }
 
 simulation::AppliedCommand Run::apply(const simulation::Command& command) {
   simulation::AppliedCommand applied = simulation_.apply(command);
   showApplied();
-  setSnapshot(snapshot_->stamp);
-  if (applied.refusal.empty() && changesOrgans(command)) {
-    listener_.onOrgans(snapshot_);
-  } else {
-    listener_.onStimuli(*snapshot_);
+  if (applied.refusal.empty()) {
+    setSnapshot(snapshot_->stamp);
+    if (changesOrgans(command)) {
+      listener_.onOrgans(snapshot_);
+    } else {
+      listener_.onStimuli(*snapshot_);
+    }
   }
+  listener_.onSettled(*this);
   return applied;
 }
 

@@ -2,7 +2,7 @@
 
 #include <ros/console.h>
 
-#include <set>
+#include <algorithm>
 #include <utility>
 
 #include "sensory_growth/ros/conversions.h"
@@ -39,7 +39,7 @@ StimulusIntake::StimulusIntake(ros::NodeHandle node, ros::NodeHandle private_nod
   clicked_point_ = subscribe(node, names::kClickedPoint, geometry_msgs::PointStamped());
   sun_ = subscribe(node, names::kSun, geometry_msgs::Vector3Stamped());
   const ros::WallDuration interval(std::chrono::duration<double>(WorldFrame::kRetryInterval).count());
-  retry_ = node.createWallTimer(interval, [this](const ros::WallTimerEvent&) { drain(); });
+  retry_ = node.createWallTimer(interval, [this](const ros::WallTimerEvent&) { lookAgain(); });
 }
 
 void StimulusIntake::receive(const std::optional<StimulusCommand>& command, const std_msgs::Header& header) {
@@ -49,37 +49,38 @@ void StimulusIntake::receive(const std::optional<StimulusCommand>& command, cons
   if (const auto fault = findFault(*command)) {
     return refuse(StimulusFate::malformed, describe(*command) + ": " + *fault);
   }
+  Stimulus stimulus{*command, header, steady_clock::now() + WorldFrame::kPatience};
+  if (handOn(stimulus, waiting_)) return;
   if (waiting_.size() == kMostWaiting) {
     return refuse(StimulusFate::too_many_waiting, describe(*command) + ": too many stimuli wait for a transform");
   }
-  waiting_.push_back({*command, header, steady_clock::now() + WorldFrame::kPatience});
-  drain();
+  waiting_.push_back(std::move(stimulus));
 }
 
-void StimulusIntake::drain() {
-  std::set<std::pair<StimulusKind, std::string>> held_up;  // stimuli of one id keep their order
-  std::deque<Waiting> still_waiting;
-  for (Waiting& waiting : waiting_) {
-    StimulusCommand& command = waiting.command;
-    const auto key = std::make_pair(command.kind, command.id);
-    if (held_up.count(key)) {
-      still_waiting.push_back(waiting);
-      continue;
-    }
-    const bool is_overdue = steady_clock::now() >= waiting.deadline;
-    const auto why_not = world_.transform(command, waiting.header, is_overdue);
-    if (!why_not) {
-      if (!outputs_.send(command)) {
-        refuse(StimulusFate::too_many_waiting, describe(command) + ": too many stimuli wait for the next step");
-      }
-    } else if (!is_overdue) {
-      held_up.insert(key);
-      still_waiting.push_back(waiting);
-    } else {
-      refuse(StimulusFate::no_transform, describe(command) + ": " + *why_not);
-    }
+void StimulusIntake::lookAgain() {
+  std::vector<Stimulus> still_waiting;
+  for (Stimulus& stimulus : waiting_) {
+    if (!handOn(stimulus, still_waiting)) still_waiting.push_back(std::move(stimulus));
   }
   waiting_.swap(still_waiting);
+  if (std::exchange(has_refused_, false)) outputs_.refused();
+}
+
+/// Sends or refuses the stimulus; false if it has to wait for its transform, or for one of the same id, as those keep
+/// their order.
+bool StimulusIntake::handOn(Stimulus& stimulus, const std::vector<Stimulus>& earlier) {
+  StimulusCommand& command = stimulus.command;
+  const auto is_same = [&](const Stimulus& e) { return e.command.kind == command.kind && e.command.id == command.id; };
+  if (std::any_of(earlier.begin(), earlier.end(), is_same)) return false;
+  const bool is_overdue = steady_clock::now() >= stimulus.deadline;
+  const auto why_not = world_.transform(command, stimulus.header, is_overdue);
+  if (why_not && !is_overdue) return false;
+  if (why_not) {
+    refuse(StimulusFate::no_transform, describe(command) + ": " + *why_not);
+  } else if (!outputs_.send(command)) {
+    refuse(StimulusFate::too_many_waiting, describe(command) + ": too many stimuli wait for the next step");
+  }
+  return true;
 }
 
 void StimulusIntake::refuse(StimulusFate fate, const std::string& why) {
@@ -88,7 +89,7 @@ void StimulusIntake::refuse(StimulusFate fate, const std::string& why) {
     ROS_WARN_STREAM_NAMED(names::kLogRos,
                           "stimulus refused (" << name(fate) << ", " << counters_.refused() << " so far): " << why);
   }
-  outputs_.refused();
+  has_refused_ = true;
 }
 
 }  // namespace sensory_growth::node

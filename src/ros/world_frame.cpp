@@ -2,6 +2,7 @@
 
 #include <tf2_geometry_msgs/tf2_geometry_msgs.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "sensory_growth/ros/conversions.h"
@@ -9,12 +10,15 @@
 namespace sensory_growth::node {
 namespace {
 
-constexpr double kTransformMemory = 600.0;  // [s] of ROS time, which may pass much faster than wall time
+constexpr double kLongestMemory = 600.0;  // [s] of ROS time, which may pass much faster than wall time
+constexpr double kMostTransforms = 1e4;   // of each frame that moves with every step
 
 }  // namespace
 
-WorldFrame::WorldFrame(std::string name)
-    : name_(std::move(name)), transforms_(ros::Duration(kTransformMemory)), listener_(transforms_) {}
+double transformMemory(double step) { return std::min(kLongestMemory, kMostTransforms * step); }
+
+WorldFrame::WorldFrame(std::string name, double step)
+    : name_(std::move(name)), transforms_(ros::Duration(transformMemory(step))), listener_(transforms_) {}
 
 std::optional<std::string> WorldFrame::transform(simulation::StimulusCommand& command, const std_msgs::Header& header,
                                                  bool is_overdue) const {

@@ -70,18 +70,21 @@ TEST(Frames, AStimulusOfAFrameOfTheOrganWorksWhilePaused) {
 }
 
 TEST(Frames, AnUnknownFrameIsRefusedWithoutHoldingUpOthers) {
+  constexpr std::uint64_t kLost = 90;  // more than may wait for a transform
   NodeUnderTest node;
-  ros::Publisher lamps = node.handle().advertise<PointSource>("point_source", 10);
+  ros::Publisher lamps = node.handle().advertise<PointSource>("point_source", 100);
   const std::uint64_t refused = node.waitForStatus("status", [](const Status&) { return true; }).stimuli_refused;
   PointSource lost = lamp(PointSource::ADD, "lost", {0.1, 0.0, 0.1});
   lost.header.frame_id = "nowhere";
-  node.publish(lamps, lost);
+  for (std::uint64_t i = 0; i < kLost; ++i) {
+    lost.id = "lost_" + std::to_string(i);
+    node.publish(lamps, lost);
+  }
   const AppliedCommand other = node.send(lamps, lamp(PointSource::ADD, "other", {0.1, 0.0, 0.1}));
   EXPECT_EQ(other.id, "other");
-  const Status status = node.waitForStatus("a refusal", [&](const Status& s) { return s.stimuli_refused > refused; });
-  EXPECT_EQ(status.stimuli_refused, refused + 1);
+  node.waitForStatus("the refusals", [&](const Status& s) { return s.stimuli_refused == refused + kLost; });
   const Stimuli stimuli = node.waitForStimuli("stimuli", [](const Stimuli& s) { return !s.point_sources.empty(); });
-  for (const PointSource& source : stimuli.point_sources) EXPECT_NE(source.id, "lost");
+  for (const PointSource& source : stimuli.point_sources) EXPECT_NE(source.id.substr(0, 4), "lost");
 }
 
 TEST(Frames, ClickedPointPlacesALampAndSunSetsALight) {

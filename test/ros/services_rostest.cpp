@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <future>
 
+#include "ros/message_log.h"
 #include "ros/node_under_test.h"
 
 namespace sensory_growth::node::testing {
@@ -188,12 +189,30 @@ TEST_F(Services, OneRecordingAtATime) {
 
 TEST_F(Services, ClockIsKeptAliveWhilePausedAndNeverZero) {
   const ros::Time stamp = node_.step(1).stamp;
-  ros::NodeHandle absolute;
   for (int i = 0; i < 3; ++i) {  // a new subscription each time: whoever comes late gets the time
-    const auto clock = ros::topic::waitForMessage<rosgraph_msgs::Clock>("/clock", absolute);
-    ASSERT_TRUE(clock);
-    EXPECT_EQ(clock->clock, stamp);
+    MessageLog<rosgraph_msgs::Clock> clock("/clock");
+    clock.waitForCount(2);
+    for (const rosgraph_msgs::Clock& message : clock.all()) EXPECT_EQ(message.clock, stamp);
   }
+}
+
+TEST_F(Services, ClockGoesForwardAndNoFasterThanAsked) {
+  constexpr double kRate = 10.0;  // ~clock_rate, far below the 100 steps that are taken in a second
+  constexpr int kAnswers = 4;     // each may let the clock say what the rate has held back
+  ASSERT_TRUE(node_.setRealTimeFactor(100.0).success);
+  MessageLog<rosgraph_msgs::Clock> clock("/clock");
+  clock.waitForCount(1);
+  clock.forget();
+  const auto begin = std::chrono::steady_clock::now();
+  ASSERT_TRUE(node_.command("resume").success);
+  node_.waitForStatus("200 steps", [](const Status& s) { return s.step_index >= 200; });
+  const ros::Time end = node_.command("pause").stamp;
+  clock.waitFor("the last stamp", [&](const rosgraph_msgs::Clock& message) { return message.clock == end; });
+  const std::vector<rosgraph_msgs::Clock> said = clock.all();
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+  for (std::size_t i = 1; i < said.size(); ++i) EXPECT_GE(said[i].clock, said[i - 1].clock) << i;
+  EXPECT_GE(said.size(), 3u);  // it went on, not only from one end to the other
+  EXPECT_LE(static_cast<double>(said.size()), elapsed.count() * kRate + 1.0 + kAnswers);
 }
 
 }  // namespace

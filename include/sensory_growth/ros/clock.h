@@ -76,7 +76,9 @@ class Clock {
   const ros::WallDuration shortest_interval_;
   ros::Publisher publisher_;
 
-  std::mutex mutex_;  // guards what follows
+  // Guards what follows. Held while /clock is sent, so that stamps go out in their order whichever thread sends them:
+  // what roscpp locks for that is locked after it, and none of that is held where roscpp calls back.
+  std::mutex mutex_;
   std::optional<FollowedTime> followed_;
   std::uint64_t ticks_ = 0;
   ros::Time stamp_;

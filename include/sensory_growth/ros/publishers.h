@@ -13,6 +13,7 @@
 #include <string>
 
 #include "sensory_growth/ros/reporter.h"
+#include "sensory_growth/ros/wall_throttle.h"
 
 namespace sensory_growth::node {
 
@@ -40,6 +41,8 @@ class Publishers : public Reporter {
   tf2_ros::TransformBroadcaster tf_broadcaster_;
   std::unique_ptr<tf2_ros::StaticTransformBroadcaster> static_tf_broadcaster_;
   std::map<std::string, ros::Publisher> publishers_;  // by topic, but for markers
+  std::uint64_t refused_ = 0;                         // commands
+  WallThrottle refusals_;
 
   // Of the thread that calls showMarkers() alone.
   ros::Publisher markers_publisher_;

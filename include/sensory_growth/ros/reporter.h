@@ -62,6 +62,7 @@ class Reporter : public RunListener {
   void onCommand(const simulation::AppliedCommand& command, const Snapshot& snapshot) override;
   void onStimuli(const Snapshot& snapshot) override;
   void onStatus(const RunStatus& status, const Snapshot& snapshot) override;
+  void onSettled(const Run& run) override;
 
   /// How markers look at present; null before the first state. From any thread.
   MarkerSettingsPtr markerSettings() const;
@@ -125,7 +126,6 @@ class Reporter : public RunListener {
   void record(const Topic& topic, const ros::Time& stamp, const Message& message);
   void beginHistory(std::uint32_t epoch);
   void goBack(const Snapshot& snapshot);
-  void keep(Message command);
   void sendBases(const Snapshot& snapshot);
   void sendTransforms(const Snapshot& snapshot);
   void beginBag(const Snapshot& snapshot);
@@ -143,9 +143,9 @@ class Reporter : public RunListener {
   std::map<std::string, Topic> states_;  // by organ
   Recorder recorder_;
   std::optional<MarkerStream> recorded_markers_;
-  std::optional<Message> origin_;  // the checkpoint that the epoch began with
-  std::vector<Message> history_;   // commands since it began, as far as they are kept
-  bool history_is_cut_ = false;
+  std::optional<Message> origin_;  // the checkpoint from which a bag goes on; none: from the beginning of the epoch
+  std::vector<Message> history_;   // commands taken since
+  std::size_t history_size_ = 0;   // [byte]
   std::uint32_t history_epoch_ = 0;
   ros::Time last_stamp_;
   std::set<std::string> frames_sent_;  // with that stamp

@@ -34,6 +34,8 @@ struct RunStatus {
   double real_time_factor = 0.0;  ///< asked for; 0: as fast as possible
 };
 
+class Run;
+
 class RunListener {
  public:
   virtual ~RunListener() = default;
@@ -54,6 +56,9 @@ class RunListener {
   virtual void onStimuli(const Snapshot& snapshot) = 0;
 
   virtual void onStatus(const RunStatus& status, const Snapshot& snapshot) = 0;
+
+  /// Everything that was taken is shown: the state of `run` is what came of it.
+  virtual void onSettled(const Run& run) = 0;
 };
 
 /// Knows neither threads nor clocks. Of its functions only snapshot() may be called from any thread.

@@ -10,10 +10,10 @@
 #include <ros/wall_timer.h>
 
 #include <chrono>
-#include <deque>
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "sensory_growth/LightDirection.h"
 #include "sensory_growth/PointSource.h"
@@ -29,7 +29,7 @@ class StimulusIntake {
  public:
   struct Outputs {
     std::function<bool(const simulation::StimulusCommand&)> send;  ///< false: too many wait already
-    std::function<void()> refused;                                 ///< called after each refusal
+    std::function<void()> refused;                                 ///< called soon after refusals, once for many
   };
 
   /// `world` and `counters` must outlive the intake.
@@ -41,19 +41,21 @@ class StimulusIntake {
 
  private:
   /// A command whose vector is still in the frame of its message.
-  struct Waiting {
+  struct Stimulus {
     simulation::StimulusCommand command;
     std_msgs::Header header;
     std::chrono::steady_clock::time_point deadline;
   };
 
-  void drain();
+  void lookAgain();
+  bool handOn(Stimulus& stimulus, const std::vector<Stimulus>& earlier);
   void refuse(StimulusFate fate, const std::string& why);
 
   const WorldFrame& world_;
   StimulusCounters& counters_;
   const Outputs outputs_;
-  std::deque<Waiting> waiting_;  // oldest first
+  std::vector<Stimulus> waiting_;  // for their transforms, oldest first
+  bool has_refused_ = false;
   WallThrottle warnings_;
 
   ros::Subscriber point_source_, light_direction_, clicked_point_, sun_;

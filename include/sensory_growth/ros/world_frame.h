@@ -15,6 +15,10 @@
 
 namespace sensory_growth::node {
 
+/// How long transforms are kept [ROS time, s] if the frames of the organs are sent every `step` [s]: for as long as a
+/// stimulus may be on its way, but no more of them than memory takes, however short the step.
+double transformMemory(double step);
+
 /// Thread-safe.
 class WorldFrame {
  public:
@@ -22,7 +26,8 @@ class WorldFrame {
   static constexpr std::chrono::seconds kPatience{1};
   static constexpr std::chrono::milliseconds kRetryInterval{50};
 
-  explicit WorldFrame(std::string name);
+  /// `step` is the ROS time between two states [s].
+  WorldFrame(std::string name, double step);
 
   /// Turns the vector of the command from the frame of its header into that of the world, or leaves it and returns why
   /// not. `is_overdue` after patience has ended: then what moved last is taken to stand there still.
