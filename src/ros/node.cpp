@@ -22,6 +22,10 @@ namespace {
 
 constexpr std::chrono::milliseconds kSignalPatience{50};
 
+// A thread that offers a topic or sets a parameter while the master is away waits no longer, least of all that of the
+// simulation: MasterWatch registers later what was missed.
+constexpr double kMasterPatience = 0.1;  // [s]
+
 /// Until somebody says what time it is; false if the process is to end first.
 bool waitForTime(const Signals& signals) {
   WallThrottle reminders(std::chrono::seconds(10));
@@ -250,6 +254,7 @@ int runNode(const Signals& signals) {
   if (!ros::master::check()) {
     return complain({"no ROS master at " + ros::master::getURI() + "; start one with roscore or roslaunch"});
   }
+  ros::master::setRetryTimeout(ros::WallDuration(kMasterPatience));
   const ros::NodeHandle private_node("~");
   ParameterReading reading = loadParameters(private_node);
   LoadedScenario loaded;
