@@ -34,6 +34,16 @@ TEST_F(Process, ListsScenarioAndParameterErrorsTogether) {
   expectRefusal({"'/nowhere/at_all.yaml', which cannot be read", "~stations is -1"});
 }
 
+TEST_F(Process, ListsWhatIsInTheWayOfFilesWithTheRest) {
+  const std::string file = directory_ / "taken.bag";
+  std::ofstream(file).put('x');
+  set("checkpoint_directory", file + "/checkpoints");
+  set("record", true);
+  set("recording_file", std::string("taken.bag"));
+  set("stations", -1);
+  expectRefusal({"~stations is -1", file + "/checkpoints: cannot be created: ", file + " exists already"});
+}
+
 TEST_F(Process, RefusesAStepThatIsTooLongForRosTime) {
   set("growth_time_scale", 30.0);
   expectRefusal({"takes 2 s of ROS time", "asks for a scale from 60"});
