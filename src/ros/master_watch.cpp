@@ -1,12 +1,15 @@
 #include "sensory_growth/ros/master_watch.h"
 
 #include <XmlRpcClient.h>
+#include <XmlRpcValue.h>
+#include <ros/connection_manager.h>
 #include <ros/master.h>
 #include <ros/network.h>
 #include <ros/this_node.h>
+#include <ros/xmlrpc_manager.h>
 
+#include <map>
 #include <optional>
-#include <utility>
 #include <vector>
 
 namespace sensory_growth::node {
@@ -14,17 +17,47 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-/// What the master answers, or nothing if it is out of reach or refuses.
-std::optional<XmlRpcValue> askMaster(const std::string& method, const std::vector<XmlRpcValue>& arguments = {}) {
-  XmlRpcValue request, response, answer;
+XmlRpcValue requestOf(const std::vector<XmlRpcValue>& arguments) {
+  XmlRpcValue request;
   request[0] = ros::this_node::getName();
   for (const XmlRpcValue& argument : arguments) request[request.size()] = argument;
-  if (!ros::master::execute(method, request, response, answer, false)) return std::nullopt;
+  return request;
+}
+
+/// What the master answers, or nothing if it is out of reach or refuses.
+std::optional<XmlRpcValue> askMaster(const std::string& method, const std::vector<XmlRpcValue>& arguments = {}) {
+  XmlRpcValue response, answer;
+  if (!ros::master::execute(method, requestOf(arguments), response, answer, false)) return std::nullopt;
   return answer;
 }
 
-std::string textOf(std::optional<XmlRpcValue> answer) {
-  return answer ? static_cast<std::string&>(*answer) : std::string();
+/// Where others ask this node for topics.
+const std::string& nodeAddress() { return ros::XMLRPCManager::instance()->getServerURI(); }
+
+/// Where others call services of this node.
+std::string serviceAddress() {
+  return "rosrpc://" + ros::network::getHost() + ":" + std::to_string(ros::ConnectionManager::instance()->getTCPPort());
+}
+
+/// What this node answers to tools and masters, or nothing if it is shutting down.
+std::optional<XmlRpcValue> askNode(const std::string& method, const std::vector<XmlRpcValue>& arguments = {}) {
+  std::string host;
+  std::uint32_t port = 0;
+  if (!ros::network::splitURI(nodeAddress(), host, port)) return std::nullopt;
+  XmlRpcValue response;
+  XmlRpc::XmlRpcClient node(host.c_str(), static_cast<int>(port), "/");
+  if (!node.execute(method.c_str(), requestOf(arguments), response) || node.isFault()) return std::nullopt;
+  return response[2];  // after a code and a message
+}
+
+/// Topics with their types: those that "getPublications" or "getSubscriptions" of this node lists.
+std::map<std::string, std::string> topicsOf(const std::string& method) {
+  std::map<std::string, std::string> types;
+  std::optional<XmlRpcValue> pairs = askNode(method);
+  for (int i = 0; pairs && i < pairs->size(); ++i) {
+    types[(*pairs)[i][0]] = static_cast<std::string&>((*pairs)[i][1]);
+  }
+  return types;
 }
 
 /// Names in a list of pairs of a name and the nodes that it belongs to, as far as this node is among them.
@@ -39,60 +72,41 @@ std::set<std::string> ownNames(XmlRpcValue& pairs) {
   return names;
 }
 
-/// Tells this node, as a master does, who publishes what it subscribes to.
-void tellOfPublishers(const std::string& node_address, const std::string& topic, const XmlRpcValue& publishers) {
-  std::string host;
-  std::uint32_t port = 0;
-  if (!ros::network::splitURI(node_address, host, port)) return;
-  XmlRpcValue request, response;
-  request[0] = "/master";
-  request[1] = topic;
-  request[2] = publishers;
-  XmlRpc::XmlRpcClient(host.c_str(), static_cast<int>(port), "/").execute("publisherUpdate", request, response);
+void publishAgain(const std::set<std::string>& listed) {
+  for (const auto& [topic, type] : topicsOf("getPublications")) {
+    if (!listed.count(topic)) askMaster("registerPublisher", {topic, type, nodeAddress()});
+  }
+}
+
+void subscribeAgain(const std::set<std::string>& listed) {
+  for (const auto& [topic, type] : topicsOf("getSubscriptions")) {
+    if (listed.count(topic)) continue;
+    const auto publishers = askMaster("registerSubscriber", {topic, type, nodeAddress()});
+    if (publishers) askNode("publisherUpdate", {topic, *publishers});  // as a master tells
+  }
+}
+
+void serveAgain(const std::set<std::string>& services, const std::set<std::string>& listed) {
+  for (const std::string& service : services) {
+    if (!listed.count(service)) askMaster("registerService", {service, serviceAddress(), nodeAddress()});
+  }
 }
 
 }  // namespace
 
 MasterWatch::State MasterWatch::check() {
-  std::optional<XmlRpcValue> system_state = askMaster("getSystemState");
-  if (!system_state) return State::unreachable;
-  Registrations registrations = registrationsIn(*system_state);
-  if (registrations.published.empty() && !known_.published.empty()) {  // a node publishes /rosout at least
-    registerAgain();
-    ++restarts_;
-    return State::registered_again;
-  }
-  learn(std::move(registrations));
-  return State::known;
-}
-
-MasterWatch::Registrations MasterWatch::registrationsIn(XmlRpcValue& system_state) {
-  return {ownNames(system_state[0]), ownNames(system_state[1]), ownNames(system_state[2])};
-}
-
-void MasterWatch::learn(Registrations registrations) {
-  if (registrations.published != known_.published || registrations.subscribed != known_.subscribed) {
-    std::optional<XmlRpcValue> types = askMaster("getTopicTypes");
-    for (int i = 0; types && i < types->size(); ++i) types_[(*types)[i][0]] = static_cast<std::string&>((*types)[i][1]);
-  }
-  if (node_address_.empty()) node_address_ = textOf(askMaster("lookupNode", {ros::this_node::getName()}));
-  if (service_address_.empty() && !registrations.services.empty()) {
-    service_address_ = textOf(askMaster("lookupService", {*registrations.services.begin()}));
-  }
-  known_ = std::move(registrations);
-}
-
-void MasterWatch::registerAgain() {
-  for (const std::string& topic : known_.published) {
-    askMaster("registerPublisher", {topic, types_[topic], node_address_});
-  }
-  for (const std::string& service : known_.services) {
-    askMaster("registerService", {service, service_address_, node_address_});
-  }
-  for (const std::string& topic : known_.subscribed) {
-    const auto publishers = askMaster("registerSubscriber", {topic, types_[topic], node_address_});
-    if (publishers) tellOfPublishers(node_address_, topic, *publishers);
-  }
+  std::optional<XmlRpcValue> listed = askMaster("getSystemState");
+  if (!listed) return State::unreachable;
+  const std::set<std::string> services = ownNames((*listed)[2]);
+  services_.insert(services.begin(), services.end());
+  publishAgain(ownNames((*listed)[0]));
+  subscribeAgain(ownNames((*listed)[1]));
+  serveAgain(services_, services);  // last, so that whoever finds a service finds everything
+  // Topics come with organs, perhaps before this was called; services are offered once, at the start.
+  const bool was_forgotten = services.empty() && !services_.empty();
+  if (!was_forgotten) return State::known;
+  ++restarts_;
+  return State::registered_again;
 }
 
 }  // namespace sensory_growth::node

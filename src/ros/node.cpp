@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <exception>
 #include <filesystem>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include "sensory_growth/ros/conversions.h"
@@ -22,6 +24,10 @@ namespace {
 
 constexpr std::chrono::milliseconds kSignalPatience{50};
 
+// A thread that offers a topic or sets a parameter while the master is away waits no longer, least of all that of the
+// simulation: MasterWatch registers later what was missed.
+constexpr double kMasterPatience = 0.1;  // [s]
+
 /// Until somebody says what time it is; false if the process is to end first.
 bool waitForTime(const Signals& signals) {
   WallThrottle reminders(std::chrono::seconds(10));
@@ -30,6 +36,24 @@ bool waitForTime(const Signals& signals) {
     if (!ros::ok() || signals.wait(kSignalPatience)) return false;
   }
   return true;
+}
+
+/// Makes the directories that files go to, and says what stands in the way of them.
+std::vector<std::string> prepareFiles(const Parameters& parameters) {
+  std::vector<std::string> problems;
+  for (const std::string& directory : {parameters.recording_directory, parameters.checkpoint_directory}) {
+    std::error_code failure;
+    if (!directory.empty()) std::filesystem::create_directories(directory, failure);
+    if (failure) problems.push_back(directory + ": cannot be created: " + failure.message());
+  }
+  const std::string& file = parameters.recording_file;  // empty: a new one
+  if (!parameters.record || parameters.recording_directory.empty() || file.empty()) return problems;
+  try {
+    recordingPath(parameters.recording_directory, file);
+  } catch (const std::exception& refusal) {
+    problems.push_back(refusal.what());
+  }
+  return problems;
 }
 
 int complain(const std::vector<std::string>& problems) {
@@ -61,9 +85,6 @@ Node::Node(const Parameters& parameters, LoadedScenario loaded)
       control_spinner_(1, &control_queue_),
       step_spinner_(1, &step_queue_),
       health_spinner_(1, &health_queue_) {
-  for (const std::string& directory : {parameters_.recording_directory, parameters_.checkpoint_directory}) {
-    if (!directory.empty()) std::filesystem::create_directories(directory);
-  }
   if (parameters_.record) {
     if (const auto refusal = publishers_.startRecording(parameters_.recording_file, *loop_.snapshot()))
       throw std::runtime_error(*refusal);
@@ -254,13 +275,15 @@ int runNode(const Signals& signals) {
   if (!ros::master::check()) {
     return complain({"no ROS master at " + ros::master::getURI() + "; start one with roscore or roslaunch"});
   }
+  ros::master::setRetryTimeout(ros::WallDuration(kMasterPatience));
   const ros::NodeHandle private_node("~");
   ParameterReading reading = loadParameters(private_node);
   LoadedScenario loaded;
   if (!reading.parameters.scenario.empty())
     loaded = loadScenario(reading.parameters, ros::this_node::getName(), reading.problems);
-  for (std::string& problem : findClockProblems(reading.parameters.clock_mode)) {
-    reading.problems.push_back(std::move(problem));
+  for (std::vector<std::string> more :
+       {findClockProblems(reading.parameters.clock_mode), prepareFiles(reading.parameters)}) {
+    std::move(more.begin(), more.end(), std::back_inserter(reading.problems));
   }
   if (!reading.problems.empty()) return complain(reading.problems);
   ROS_INFO_STREAM_NAMED(names::kLogRos, "effective parameters:\n" << loaded.sources.parameters);

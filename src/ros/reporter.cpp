@@ -141,7 +141,9 @@ void Reporter::onStatus(const RunStatus& status, const Snapshot& snapshot) {
   message.recording = recorder_.path();
   const Message shown = shared(std::move(message));
   send(topics_.status, snapshot.stamp, shown);
-  if (recorder_.isFull() && !splitRecording(snapshot)) record(topics_.status, snapshot.stamp, shown);
+  if (!recorder_.isFull()) return;
+  if (const auto refusal = splitRecording(snapshot)) return warnOfSize(*refusal);
+  record(topics_.status, snapshot.stamp, shown);
 }
 
 /// However many commands are taken, a bag begins with few: of a long history the state that it led to is enough.
@@ -258,7 +260,9 @@ void Reporter::goBack(const Snapshot& snapshot) {
   // Listeners forget what they hold when time runs backwards, and a bag in which it does cannot be played.
   publishSources();
   publish(topics_.tf_static, shared(staticTransforms(snapshot, frames_)));
-  if (recorder_.recording() && !recorder_.split()) beginBag(snapshot);
+  if (!recorder_.recording()) return;
+  if (const auto refusal = recorder_.split()) return recorder_.stop(*refusal);
+  beginBag(snapshot);
 }
 
 void Reporter::beginBag(const Snapshot& snapshot) {

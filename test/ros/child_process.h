@@ -40,16 +40,19 @@ class ChildProcess {
   }
 
   ~ChildProcess() {
-    if (pid_ > 0) kill();
+    kill();
     unlink(output_.c_str());
   }
 
   pid_t pid() const { return pid_; }
 
-  void signal(int number) const { ::kill(pid_, number); }
+  void signal(int number) const {
+    if (pid_ > 0) ::kill(pid_, number);  // -1 is everybody
+  }
 
-  /// Ends it as the system does that runs out of memory.
+  /// Ends it as the system does that runs out of memory, unless it has ended.
   void kill() {
+    if (pid_ <= 0) return;
     ::kill(pid_, SIGKILL);
     waitpid(pid_, nullptr, 0);
     pid_ = -1;

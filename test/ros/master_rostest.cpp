@@ -1,19 +1,23 @@
 /// The ROS master ends and begins again; the node goes on and can be found again. Seen with the tools of ROS, because
-/// this test, like any node, knows one master only.
+/// this test, like any node, knows one master only, that of rostest.
 
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
+#include <ros/xmlrpc_manager.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <cstdlib>
+#include <future>
 #include <set>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "ros/process_fixture.h"
+#include "sensory_growth/SpawnOrgan.h"
+#include "support/spawned_organ.h"
 
 namespace sensory_growth::node::testing {
 namespace {
@@ -72,12 +76,35 @@ class Master : public Process {
     return child.printed();
   }
 
+  /// Whether `name list` of the tools has that line.
+  bool has(const std::string& name, const std::string& line) { return lines({name, "list"}).count(line) > 0; }
+
   /// The same, whatever the order of its lines.
   std::set<std::string> lines(const std::vector<std::string>& command) {
     std::istringstream printed(tool(command));
     std::set<std::string> lines;
     for (std::string line; std::getline(printed, line);) lines.insert(line);
     return lines;
+  }
+
+  /// Lets this test call a service of the node whatever becomes of the node's master: tells the master of this test.
+  template <typename Service>
+  ros::ServiceClient clientOf(const std::string& service) {
+    std::string address = tool({"rosservice", "uri", service});
+    address.erase(address.find_last_not_of('\n') + 1);
+    XmlRpc::XmlRpcValue request, response, answer;
+    request[0] = "/orphan";
+    request[1] = service;
+    request[2] = address;
+    request[3] = ros::XMLRPCManager::instance()->getServerURI();
+    EXPECT_TRUE(ros::master::execute("registerService", request, response, answer, false));
+    return ros::NodeHandle().serviceClient<Service>(service);
+  }
+
+  static SpawnOrgan spawn(const std::string& organ) {
+    SpawnOrgan service;
+    service.request.organ = support::organText(organ);
+    return service;
   }
 
   std::string output(const std::string& name) const { return directory_ / (name + ".txt"); }
@@ -98,9 +125,9 @@ TEST_F(Master, ANodeOutlivesTheMasterAndIsFoundAgain) {
   first.kill();
 
   ChildProcess second = startMaster();
-  lookUntil("the service again", [&] { return steps("2"); });
+  lookUntil("the services again", [&] { return lines({"rosservice", "list"}) == services; });
   // Everything as before, types included; whoever comes late gets what is latched, and is heard.
-  EXPECT_EQ(lines({"rosservice", "list"}), services);
+  EXPECT_TRUE(steps("2"));
   EXPECT_EQ(lines({"rostopic", "list", "-v"}), topics);
   EXPECT_NE(tool({"rostopic", "echo", "-n", "1", "/orphan/status"}).find("step_index: 2\n"), std::string::npos);
   tool({"rostopic", "pub", "-1", "/orphan/point_source", "sensory_growth/PointSource",
@@ -112,10 +139,56 @@ TEST_F(Master, ANodeOutlivesTheMasterAndIsFoundAgain) {
   EXPECT_NE(node.printed().find("the master was started anew"), std::string::npos) << node.printed();
 }
 
+TEST_F(Master, WhatCameWhileTheMasterWasAwayIsFound) {
+  ChildProcess first = startMaster();
+  ChildProcess node = startNode();
+  lookUntil("the service", [this] { return has("rosservice", "/orphan/spawn_organ"); });
+  ros::ServiceClient spawn_organ = clientOf<SpawnOrgan>("/orphan/spawn_organ");
+  lookUntil("a check of the master", [&] {
+    return tool({"rostopic", "echo", "-n", "1", "/diagnostics"}).find("message: \"registered\"") != std::string::npos;
+  });
+  std::set<std::string> topics = lines({"rostopic", "list"});
+  const std::set<std::string> services = lines({"rosservice", "list"});
+  first.kill();
+  SpawnOrgan away = spawn("away"), early = spawn("early");
+  ASSERT_TRUE(spawn_organ.call(away) && away.response.success) << away.response.message;
+
+  // One topic is registered with the new master before the node knows that it is new.
+  ChildProcess second = startMaster();
+  ASSERT_TRUE(spawn_organ.call(early) && early.response.success) << early.response.message;
+  lookUntil("the services again", [&] { return lines({"rosservice", "list"}) == services; });
+  for (const char* organ : {"away", "early"}) topics.insert(std::string("/orphan/organs/") + organ + "/state");
+  EXPECT_EQ(lines({"rostopic", "list"}), topics);
+  EXPECT_EQ(tool({"rostopic", "type", "/orphan/organs/away/state"}), "sensory_growth/OrganState\n");
+}
+
+TEST_F(Master, WithoutAMasterANodeIsControlledAndEnds) {
+  ChildProcess master = startMaster();
+  ChildProcess node = startNode();
+  lookUntil("the service", [this] { return has("rosservice", "/orphan/step"); });
+  ros::ServiceClient spawn_organ = clientOf<SpawnOrgan>("/orphan/spawn_organ");
+  ros::ServiceClient step = clientOf<Step>("/orphan/step");
+  master.kill();
+  auto answers = std::async(std::launch::async, [&] {
+    SpawnOrgan late = spawn("late");
+    Step one;
+    one.request.steps = 1;
+    return spawn_organ.call(late) && late.response.success && step.call(one) && one.response.success;
+  });
+  const bool are_in_time = answers.wait_for(5s) == std::future_status::ready;
+  EXPECT_TRUE(are_in_time);
+  if (are_in_time) {
+    EXPECT_TRUE(answers.get());
+  }
+  node.signal(SIGINT);
+  EXPECT_EQ(node.waitForExit(5s), 0) << node.printed();
+  node.kill();  // if it still runs, nobody will answer
+}
+
 TEST_F(Master, ANodeWithoutAMasterEnds) {
   ChildProcess master = startMaster();
   ChildProcess node = startNode();
-  lookUntil("the service", [this] { return tool({"rosservice", "list"}).find("/orphan/step\n") != std::string::npos; });
+  lookUntil("the service", [this] { return has("rosservice", "/orphan/step"); });
   master.kill();
   node.signal(SIGTERM);
   EXPECT_EQ(node.waitForExit(5s), 0) << node.printed();

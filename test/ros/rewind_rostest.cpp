@@ -8,27 +8,15 @@
 #include <visualization_msgs/MarkerArray.h>
 
 #include <filesystem>
-#include <sstream>
 
 #include "ros/bag_contents.h"
 #include "ros/marker_lint.h"
 #include "ros/message_log.h"
 #include "ros/node_under_test.h"
-#include "sensory_growth/batch/commands.h"
+#include "ros/replays.h"
 
 namespace sensory_growth::node::testing {
 namespace {
-
-/// Whether running the bag again gives the same, bit for bit.
-bool replays(const std::string& bag) {
-  batch::ReplayOptions options;
-  options.recorded = bag;
-  options.quiet = true;
-  std::ostringstream out, err;
-  const batch::ExitCode code = batch::replay(options, {out, err, [] { return false; }});
-  EXPECT_EQ(err.str(), "");
-  return code == batch::kOk;
-}
 
 const ros::Time kFirstTick(1.0);  // a step of 60 s at a scale of 60
 
@@ -39,12 +27,13 @@ TEST(Rewind, EverythingIsSaidAgain) {
   node.stepTo(5, 0);
   MessageLog<rosgraph_msgs::Clock> clock("/clock");
   MessageLog<tf2_msgs::TFMessage> moving("/tf"), fixed("/tf_static");
-  MessageLog<std_msgs::String> scenario("/sensory_growth/scenario"), parameters("/sensory_growth/parameters");
+  MessageLog<std_msgs::String> scenario("/sensory_growth/scenario"), protocol("/sensory_growth/protocol"),
+      parameters("/sensory_growth/parameters");
   MessageLog<Stimuli> stimuli("/sensory_growth/stimuli");
   MessageLog<Status> status("/sensory_growth/status");
   MessageLog<OrganState> states("/sensory_growth/organs/shoot/state");
   MessageLog<visualization_msgs::MarkerArray> markers("/sensory_growth/markers");
-  for (MessageLog<std_msgs::String>* text : {&scenario, &parameters}) text->waitForCount(1);  // what is latched
+  for (MessageLog<std_msgs::String>* text : {&scenario, &protocol, &parameters}) text->waitForCount(1);
   fixed.waitForCount(1);
   stimuli.waitForCount(1);
   states.waitForCount(1);
@@ -60,6 +49,7 @@ TEST(Rewind, EverythingIsSaidAgain) {
   moving.waitFor("the tip", [](const auto& message) { return isFirst(message.transforms.at(0).header); });
   fixed.waitForCount(2);
   scenario.waitForCount(2);
+  protocol.waitForCount(2);
   parameters.waitForCount(2);
   stimuli.waitFor("stimuli", [](const auto& message) { return isFirst(message.header) && message.epoch == 1; });
   states.waitFor("the state", [](const auto& message) { return isFirst(message.header) && message.epoch == 1; });

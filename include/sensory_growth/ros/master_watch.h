@@ -1,16 +1,14 @@
 #pragma once
 
-#include <XmlRpcValue.h>
-
 #include <cstdint>
-#include <map>
 #include <set>
 #include <string>
 
 namespace sensory_growth::node {
 
-/// Notices that the ROS master was started anew and has forgotten this node, and registers again whatever the master
-/// knew of it. roscpp registers only once; without this nobody would find the node any more.
+/// Notices that the ROS master does not know of something that this node offers or asks for, and registers it again:
+/// all of it once the master was started anew, a topic that was opened while the master was away. roscpp registers only
+/// once; without this nobody would find the node any more.
 ///
 /// What the master kept for others is gone all the same: parameters, /use_sim_time among them.
 class MasterWatch {
@@ -20,22 +18,11 @@ class MasterWatch {
   /// Asks the master; may block as long as the network does. From one thread.
   State check();
 
-  /// How often the node was registered again.
+  /// How often a master had forgotten this node.
   std::uint64_t restarts() const { return restarts_; }
 
  private:
-  struct Registrations {
-    std::set<std::string> published, subscribed, services;
-  };
-
-  static Registrations registrationsIn(XmlRpc::XmlRpcValue& system_state);
-  void learn(Registrations registrations);
-  void registerAgain();
-
-  Registrations known_;
-  std::map<std::string, std::string> types_;  // of all topics
-  std::string node_address_;                  // where others ask for topics
-  std::string service_address_;               // where others call services
+  std::set<std::string> services_;  // that the master has ever listed; none is withdrawn before the end
   std::uint64_t restarts_ = 0;
 };
 
