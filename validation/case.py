@@ -109,14 +109,14 @@ def at_most(what, high, measured):
     return bounded(what, -math.inf, high, measured)
 
 
-def converging(what, expected, measure, coarse, tolerance, relative=False, at_least=1.8, known_to=1e-10):
-    """Measures at a coarse resolution and at twice that; the second counts, both tell the order. That fails if it is
-    less than at_least, and cannot be told from errors below those of the expected figure, which is known_to so many
-    parts."""
+def converging(what, expected, measure, coarse, tolerance, relative=False, at_least=1.8, known_to=1e-11):
+    """Measures at a coarse resolution and at twice that; the second counts, both tell the order. One less than at_least
+    fails. It cannot be told from errors that are not ten times as large as that of the expected figure, known_to so
+    small a part of itself."""
     expected = np.atleast_1d(expected).astype(float)
     errors = [np.linalg.norm(np.atleast_1d(measure(coarse)) - expected)]
     measured = np.atleast_1d(measure(2 * coarse))
     errors.append(np.linalg.norm(measured - expected))
-    tellable = min(errors) > known_to * max(1.0, np.linalg.norm(expected))
+    tellable = min(errors) > 10.0 * known_to * max(1.0, np.linalg.norm(expected))
     order = math.log2(errors[0] / errors[1]) if tellable else math.nan
     return check(what, expected, measured, tolerance, relative, order, at_least)

@@ -147,7 +147,7 @@ def angles_along(curvature, base=0.0):
 
 
 def least_angle_of_righting(balance, base, duration=4.0, cells=200, step=0.01):
-    """Of the tip [rad] of a shoot whose curvature follows k' = -B sin A - k, its base leaning by `base` from upright."""
+    """Of the tip [rad] of a shoot whose curvature follows k' = -B sin A - k, with the angle `base` at its base."""
     curvature, tip = np.zeros(cells + 1), []
     for _ in range(round(duration / step)):
         curvature = rk4(lambda k: -balance * np.sin(angles_along(k, base)) - k, curvature, step)

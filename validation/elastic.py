@@ -126,7 +126,9 @@ def greenhill(bench):
     yield check("its relative error times n², n = 100", -0.5155, 100**2 * (critical(100) / GREENHILL - 1.0), 5e-3)
 
 
-@case("V6", "Column past buckling under its own weight", "elastica by shooting", "5e-4 asked; second order in the element")
+@case(
+    "V6", "Column past buckling under its own weight", "elastica by shooting", "5e-4 asked; second order in the element"
+)
 def heavy_column(bench):
     for factor in (1.02, 1.1, 1.5, 2.0):
         load = factor * GREENHILL
@@ -210,7 +212,9 @@ def helix_through(points, axis):
     plane = np.linalg.svd(axis[None])[2][1:]  # two directions across it, right-handed with it
     plane[1] *= np.linalg.det([*plane, axis])
     across = points @ plane.T
-    centre = np.linalg.lstsq(np.column_stack([2 * across, np.ones(len(across))]), np.sum(across**2, axis=1), rcond=None)
+    centre = np.linalg.lstsq(
+        np.column_stack([2 * across, np.ones(len(across))]), np.sum(across**2, axis=1), rcond=None
+    )
     offset = across - centre[0][:2]
     turned = np.unwrap(np.arctan2(offset[:, 1], offset[:, 0]))
     return np.mean(np.hypot(*offset.T)), 2.0 * math.pi * np.polyfit(turned, along, 1)[0]
@@ -268,7 +272,9 @@ def cantilever_on_floor(bench):
         return state.tip[0], load * (1.0 - 0.5 / elements) - carried
 
     yield converging("β = 10: tip x, reaction of the floor", (x, reaction), measure, 50, 1e-3)
-    yield at_most("height of the tip above the floor", 1e-9, abs(bench.last(heavy(load, 100, walls=[wall])).tip[2] - floor))
+    yield at_most(
+        "height of the tip above the floor", 1e-9, abs(bench.last(heavy(load, 100, walls=[wall])).tip[2] - floor)
+    )
 
 
 @case(

@@ -17,9 +17,9 @@ one that the simulator had no part in. `./scripts/validate` makes this page anew
 a star, `--keep` leaves scenarios and bags in `build/validation`.
 
 *Error* is the largest over the components, *order* the order of convergence seen when the resolution is doubled
-(elements, or steps where the case says so; the finer run is the one shown); a case fails whose order is more than a
-tenth below that of its method. A figure without error has only to lie in the range that is expected. Cases are numbered as in
-[model.md](model.md) (V), whole systems are C, properties P.
+(elements, or steps where the case says so; the finer run is the one shown); a case fails whose order is more than
+0.2 below that of its method. A figure without error has only to lie in the range that is expected. Cases are numbered
+as in [model.md](model.md) (V), whole systems are C, properties P.
 """
 
 
