@@ -33,7 +33,22 @@ def launch(scenario, bag, growth_time_scale):
     }
     settings = [f"{name}:={value}" for name, value in arguments.items()]
     log = open(bag.with_suffix(".log"), "wb")  # of the launched process, which outlives this function
-    return subprocess.Popen(["roslaunch", "sensory_growth", "sim.launch", *settings], stdout=log, stderr=log)
+    command = ["roslaunch", "sensory_growth", "sim.launch", *settings]
+    return subprocess.Popen(command, stdout=log, stderr=log, preexec_fn=heed_interrupts)
+
+
+def heed_interrupts():
+    """What a shell starts in the background ignores them until it says otherwise."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
+def stop(node):
+    node.send_signal(signal.SIGINT)
+    try:
+        node.wait(DEADLINE)
+    except subprocess.TimeoutExpired:
+        node.terminate()
+        raise
 
 
 def overdue(*_):
@@ -107,8 +122,7 @@ def main():
         client.stop_recording()
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0.0)
-        node.send_signal(signal.SIGINT)
-        node.wait(DEADLINE)
+        stop(node)
 
 
 if __name__ == "__main__":

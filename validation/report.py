@@ -28,7 +28,7 @@ def line(result):
     worst = max((check.error / check.tolerance for check in result.checks if isinstance(check, Check)), default=0.0)
     state = "ok    " if result.passed else "FAILED"
     text = f"{state} {result.case.id:5} {result.case.title}: {worst:.2g} of the tolerance, {result.seconds:.1f} s"
-    failures = [f"\n    {', '.join(_cells(check))}" for check in result.checks if not check.passed]
+    failures = [f"\n    {_sentence(check)}" for check in result.checks if not check.passed]
     unchecked = "" if result.checks or result.fault else "\n    nothing was checked"
     return text + "".join(failures) + unchecked + (f"\n{result.fault}" if result.fault else "")
 
@@ -58,6 +58,12 @@ def _cells(check):
     if not check.converges:
         order += f", at least {check.least_order} {FAILS}"
     return check.what, _values(check.expected), _values(check.measured), error, f"{check.tolerance:.2g}", order
+
+
+def _sentence(check):
+    what, *cells = _cells(check)
+    names = ("expected", "measured", "error", "tolerance", "order")
+    return f"{what}: " + ", ".join(f"{name} {cell}" for name, cell in zip(names, cells) if cell)
 
 
 def _row(*cells):
