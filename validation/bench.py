@@ -25,13 +25,16 @@ class State:
     tip: np.ndarray
     tip_frame: np.ndarray  # rotation matrix, columns d1, d2, d3
     rest_length: float
-    length: float
     lowest_eigenvalue: float
-    divisions: int
 
     @property
     def tangent(self):
         return self.tip_frame[:, 2]
+
+    @property
+    def tangents(self):
+        """Of the elements."""
+        return np.array([rotation(*frame)[:, 2] for frame in self.frames])
 
 
 def _row(message, *names):
@@ -65,9 +68,7 @@ def _state(message):
         tip=_row(message.tip.position, "x", "y", "z"),
         tip_frame=rotation(*_row(message.tip.orientation, "x", "y", "z", "w")),
         rest_length=message.rest_length,
-        length=message.length,
         lowest_eigenvalue=message.relaxation.lowest_eigenvalue,
-        divisions=message.relaxation.divisions,
     )
 
 
@@ -86,8 +87,28 @@ def read_bag(path, last=False):
     return states
 
 
+DEADLINE = 300.0  # wall seconds for any one program; the longest takes a tenth of that
+
+
 class RunFailed(Exception):
-    """A program ended with another exit code than it should have."""
+    """A program ended with another exit code than it should have, or not at all."""
+
+
+def run_program(name, command):
+    """What it prints."""
+    try:
+        done = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False, timeout=DEADLINE)
+    except subprocess.TimeoutExpired as late:
+        raise RunFailed(f"{name} did not end within {DEADLINE:.0f} s") from late
+    if done.returncode != 0:
+        raise RunFailed(f"{name} ended with {done.returncode}: {done.stderr.strip()}")
+    return done.stdout
+
+
+@dataclass(frozen=True)
+class Picture:
+    name: str
+    caption: str
 
 
 class Bench:
@@ -97,6 +118,7 @@ class Bench:
         self.programs = pathlib.Path(programs)
         self.folder = pathlib.Path(folder)
         self.pictures = pictures
+        self.drawn = []
         self._runs = 0
         self.folder.mkdir(parents=True, exist_ok=True)
 
@@ -107,11 +129,7 @@ class Bench:
         return path
 
     def call(self, program, *arguments):
-        command = [str(self.programs / program), *map(str, arguments)]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-        if done.returncode != 0:
-            raise RunFailed(f"{program} ended with {done.returncode}: {done.stderr.strip()}")
-        return done.stdout
+        return run_program(program, [self.programs / program, *arguments])
 
     def _record(self, content):
         path = self.write(content)
@@ -140,10 +158,8 @@ class Bench:
         path = self.write(content)
         bag = path.with_suffix(".bag")
         command = [sys.executable, "-m", "validation.live_run", path, bag, steps, "--lights", json.dumps(lights)]
-        command += ["--growth-time-scale", growth_time_scale]
-        done = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False)
-        if done.returncode != 0:
-            raise RunFailed(f"the live run ended with {done.returncode}: {done.stderr.strip()}")
+        command += ["--growth-time-scale", growth_time_scale, "--deadline", DEADLINE / 2]
+        run_program("the live run", command)
         return read_bag(bag)
 
     def last(self, content):
@@ -151,8 +167,8 @@ class Bench:
         (states,) = read_bag(self._record(content), last=True).values()
         return states[-1]
 
-    def picture(self, name, draw, **size):
-        """Lets draw(axes) make a picture, if pictures are wanted."""
+    def picture(self, name, caption, draw, panels=1):
+        """Lets draw(*axes) make a picture, if pictures are wanted."""
         if self.pictures is None:
             return
         import matplotlib
@@ -161,8 +177,10 @@ class Bench:
         matplotlib.rcParams["svg.hashsalt"] = name  # the same file from the same data
         import matplotlib.pyplot as plt
 
-        figure, axes = plt.subplots(figsize=size.get("figsize", (6, 4)), constrained_layout=True)
-        draw(axes)
+        width = 6.0 if panels == 1 else 3.6 * panels
+        figure, axes = plt.subplots(1, panels, figsize=(width, 4.0), constrained_layout=True, squeeze=False)
+        draw(*axes[0])
         self.pictures.mkdir(parents=True, exist_ok=True)
         figure.savefig(self.pictures / f"{name}.svg", metadata={"Date": None})
         plt.close(figure)
+        self.drawn.append(Picture(name, caption))

@@ -105,3 +105,78 @@ def spatial_tip(length, rest_curvature, stiffness, stretch_compliance, base_fram
     for factor in np.linspace(0.0, 1.0, steps + 1)[1:]:
         guess, end = solve(factor, guess)
     return end[:3]
+
+
+def universal_shape(balance, s=1.0):
+    """x, z and angle from upright at s of a shoot of unit length on its side that rights itself by G = balance
+    (Bastien et al. 2013)."""
+    return np.array(
+        [
+            2.0 / balance * np.arctan(np.tanh(balance * s / 2.0)),
+            np.log(np.cosh(balance * s)) / balance,
+            2.0 * np.arctan(np.exp(-balance * s)),
+        ]
+    )
+
+
+def growth_that_buckles(radius, shear_over_young):
+    """Growth strain at which a straight rod between clamps one apart buckles, stretch and shear included: the first
+    solution of B θ'' + P (1 - P/EA + P/αGA) θ = 0 with two whole waves over the grown length."""
+
+    def excess(growth):
+        pressure = growth / (1.0 + growth)  # over EA
+        inertia = radius**2 / 4.0  # I / A
+        wave = 2.0 * np.pi / (1.0 + growth)
+        return pressure * (1.0 - pressure + pressure / shear_over_young) - inertia * wave**2
+
+    return brentq(excess, 0.0, 0.1, xtol=1e-15)
+
+
+def rk4(rate, state, step):
+    k1 = rate(state)
+    k2 = rate(state + 0.5 * step * k1)
+    k3 = rate(state + 0.5 * step * k2)
+    k4 = rate(state + step * k3)
+    return state + step / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
+
+
+def angles_along(curvature, base=0.0):
+    """From curvatures at equal distances along unit length, by the trapezoidal rule."""
+    cells = 0.5 * (curvature[1:] + curvature[:-1]) / (len(curvature) - 1)
+    return base + np.concatenate([[0.0], np.cumsum(cells)])
+
+
+def least_angle_of_righting(balance, base, duration=4.0, cells=200, step=0.01):
+    """Of the tip [rad] of a shoot whose curvature follows k' = -B sin A - k, with the angle `base` at its base."""
+    curvature, tip = np.zeros(cells + 1), []
+    for _ in range(round(duration / step)):
+        curvature = rk4(lambda k: -balance * np.sin(angles_along(k, base)) - k, curvature, step)
+        tip.append(angles_along(curvature, base)[-1])
+    return min(tip)
+
+
+def largest_answer_to_light(intensities, step, sensitivity=5.0, straightening=0.5, cells=200):
+    """Of the tip [rad] of an upright organ of unit length that is lit from the side, by intensities that hold for a
+    step each, and perceives p with p' = I cos A - p: k' = sensitivity p - straightening k."""
+    state, tip = np.zeros((2, cells + 1)), []  # curvature, perceived
+    for intensity in intensities:
+
+        def rate(state):
+            sensed = intensity * np.cos(angles_along(state[0]))
+            return np.array([sensitivity * state[1] - straightening * state[0], sensed - state[1]])
+
+        state = rk4(rate, state, step)
+        tip.append(angles_along(state[0])[-1])
+    return max(tip)
+
+
+def coarse_answer_to_light(intensities, step, sensitivity=5.0, straightening=0.5, elements=100):
+    """The same at first order: base frozen into the first element, light sensed in the element above a bend, Euler
+    steps, and a memory that sums what was sensed, the present included."""
+    curvature, perceived, largest = np.zeros(elements - 1), np.zeros(elements - 1), 0.0
+    for intensity in intensities:
+        angles = np.cumsum(curvature) / elements
+        largest = max(largest, angles[-1])
+        perceived = np.exp(-step) * perceived + step * intensity * np.cos(angles)
+        curvature = curvature + step * (sensitivity * perceived - straightening * curvature)
+    return largest

@@ -5,8 +5,9 @@ import pathlib
 
 import yaml
 
+from validation import closed_forms
 from validation.case import case, check
-from validation.growth_laws import sagging_shape, universal_shape
+from validation.growth_laws import sagging_shape
 
 PACKAGE = pathlib.Path(__file__).resolve().parent.parent
 
@@ -93,7 +94,10 @@ def shipped_growth_laws(bench):
     load = density * 9.81 * math.pi * radius**2 * length**3 / (young * math.pi * radius**4 / 4.0)
     balance = 0.8 * length / 0.064
     states = bench.live(content, 24 * 30, growth_time_scale=600)
-    for organ, expected in (("actual", universal_shape(balance)), ("intrinsic", sagging_shape(balance, load))):
+    for organ, expected in (
+        ("actual", closed_forms.universal_shape(balance)),
+        ("intrinsic", sagging_shape(balance, load)),
+    ):
         state = states[organ][-1]
         tip = (state.tip - state.positions[0])[[0, 2]] / length
         yield check(f"{organ}: tip x, z", expected[:2], tip, 2e-3)

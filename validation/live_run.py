@@ -9,6 +9,7 @@ import signal
 import socket
 import subprocess
 import threading
+import time
 
 NODE = "/sensory_growth"
 DEADLINE = 60.0  # wall seconds for anything that should come at once
@@ -32,7 +33,26 @@ def launch(scenario, bag, growth_time_scale):
     }
     settings = [f"{name}:={value}" for name, value in arguments.items()]
     log = open(bag.with_suffix(".log"), "wb")  # of the launched process, which outlives this function
-    return subprocess.Popen(["roslaunch", "sensory_growth", "sim.launch", *settings], stdout=log, stderr=log)
+    command = ["roslaunch", "sensory_growth", "sim.launch", *settings]
+    return subprocess.Popen(command, stdout=log, stderr=log, preexec_fn=heed_interrupts)
+
+
+def heed_interrupts():
+    """What a shell starts in the background ignores them until it says otherwise."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
+def stop(node):
+    node.send_signal(signal.SIGINT)
+    try:
+        node.wait(DEADLINE)
+    except subprocess.TimeoutExpired:
+        node.terminate()
+        raise
+
+
+def overdue(*_):
+    raise TimeoutError("the live run takes too long")
 
 
 class Client:
@@ -43,21 +63,26 @@ class Client:
         from sensory_growth.msg import AppliedCommand, LightDirection
         from sensory_growth.srv import Step, StopRecording
 
-        self._connected, self._applied = threading.Event(), threading.Semaphore(0)
+        self._applied = threading.Semaphore(0)
         self._message = LightDirection
         rospy.init_node("validation", anonymous=True, disable_signals=True)
         self._services = {"step": Step, "stop_recording": StopRecording}
         for name, kind in self._services.items():
             rospy.wait_for_service(f"{NODE}/{name}", DEADLINE)
             self._services[name] = rospy.ServiceProxy(f"{NODE}/{name}", kind)
-        rospy.Subscriber(f"{NODE}/applied_commands", AppliedCommand, lambda message: self._applied.release())
-        watcher = rospy.SubscribeListener()
-        watcher.peer_subscribe = lambda *_: self._connected.set()
-        self._lights = rospy.Publisher(f"{NODE}/light_direction", LightDirection, watcher, queue_size=10)
+        echo = rospy.Subscriber(f"{NODE}/applied_commands", AppliedCommand, lambda message: self._applied.release())
+        self._lights = rospy.Publisher(f"{NODE}/light_direction", LightDirection, queue_size=10)
+        self._connections = (echo, self._lights)  # what goes before there is one is lost
+
+    def wait_for_connections(self):
+        deadline = time.monotonic() + DEADLINE
+        while not all(connection.get_num_connections() for connection in self._connections):
+            if time.monotonic() > deadline:
+                raise TimeoutError("the node does not take lights or tell what it took")
+            time.sleep(0.01)
 
     def add_light(self, id, towards, strength):
-        if not self._connected.wait(DEADLINE):
-            raise TimeoutError("the node does not listen to lights")
+        self.wait_for_connections()
         message = self._message(operation=self._message.ADD, id=id, strength=strength)
         message.towards.x, message.towards.y, message.towards.z = towards
         self._lights.publish(message)
@@ -82,7 +107,10 @@ def main():
     parser.add_argument("steps", type=int)
     parser.add_argument("--lights", type=json.loads, default=[], help="id, direction and strength of each")
     parser.add_argument("--growth-time-scale", type=float, default=60.0)
+    parser.add_argument("--deadline", type=float, default=0.0, help="wall seconds for all of it; 0: none")
     arguments = parser.parse_args()
+    signal.signal(signal.SIGALRM, overdue)
+    signal.setitimer(signal.ITIMER_REAL, arguments.deadline)
     os.environ["ROS_MASTER_URI"] = f"http://localhost:{free_port()}"
     arguments.bag.unlink(missing_ok=True)
     node = launch(arguments.scenario.resolve(), arguments.bag.resolve(), arguments.growth_time_scale)
@@ -93,8 +121,8 @@ def main():
         client.step(arguments.steps)
         client.stop_recording()
     finally:
-        node.send_signal(signal.SIGINT)
-        node.wait(DEADLINE)
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        stop(node)
 
 
 if __name__ == "__main__":

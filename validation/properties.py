@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from validation.case import at_most, case, check
+from validation.case import at_most, bounded, case, check
 from validation.elastic import extensible
 from validation.growth_laws import laid
 from validation.scenario import KINEMATIC, RADIUS, UPRIGHT, changed, organ, scenario, stepping, vector, weight
@@ -110,3 +110,45 @@ def dynamics(bench):
 
     motion = positions({"method": "dynamic", "tolerance": 1e-11})
     yield at_most("largest distance, β = 10", 1e-8, np.max(np.abs(motion - positions({"method": "static"}))))
+
+
+@case(
+    "P6",
+    "Law 2 near self-buckling needs short steps",
+    "steps beyond 2 (1 - S/S_c) of the straightening time, here 0.086, diverge (docs/model.md 11.2)",
+    "upright to 1e-2 of the length, or leaning by more than ten times that",
+)
+def short_steps(bench):
+    def leaning(step):
+        rod = organ(
+            elements=40,
+            base={"direction": [1e-3, 0, 1]},
+            growth={"rate": "1 1/s"},
+            sensitivities={"gravity": RADIUS},
+            proprioception={"intrinsic_length": None, "actual_length": f"{RADIUS!r} m"},
+            **weight(7.5),
+        )
+        return bench.last(scenario(rod, weight=True, duration="60 s", stepping=stepping(step))).tip[0]
+
+    yield bounded("S = 7.5, steps of 0.05: tip aside, over L", 0.0, 0.01, leaning(0.05))
+    yield bounded("S = 7.5, steps of 0.1: tip aside, over L", 0.1, 1.0, leaning(0.1))
+
+
+@case(
+    "P7",
+    "A buckled organ with rest twist",
+    "nothing holds its azimuth, and nothing turns it",
+    "3° in ten steps; see what was found out",
+)
+def free_azimuth(bench):
+    for twist, bound in ((0.0, 1e-9), (2.0, 3.0)):
+        rod = organ(
+            elements=40,
+            base=UPRIGHT,
+            rest_curvature=vector("1/m", 0, 0, twist),
+            **weight(9.0),
+        )
+        tips = [state.tip for state in bench.states(scenario(rod, weight=True, duration="20 s"))["organ"]]
+        azimuths = np.unwrap([math.atan2(tip[1], tip[0]) for tip in tips])
+        drift = np.degrees(abs(azimuths[-1] - azimuths[-11]))
+        yield at_most(f"rest twist {twist:.0f}/L, no growth: drift of the azimuth in ten steps [deg]", bound, drift)

@@ -4,7 +4,10 @@ import math
 import pathlib
 import platform
 
+from validation.case import Bound, Check
+
 FINDINGS = pathlib.Path(__file__).parent / "findings.md"
+FAILS, DID_NOT_RUN = "**fails**", "did not run to its end"
 
 HEAD = """# Validation
 
@@ -14,66 +17,88 @@ one that the simulator had no part in. `./scripts/validate` makes this page anew
 a star, `--keep` leaves scenarios and bags in `build/validation`.
 
 *Error* is the largest over the components, *order* the order of convergence seen when the resolution is doubled
-(elements, or steps where the case says so; the finer run is the one shown). Cases are numbered as in
-[model.md](model.md) (V), whole systems are C, properties P.
+(elements, or steps where the case says so; the finer run is the one shown); a case fails whose order is more than
+0.2 below that of its method. A figure without error has only to lie in the range that is expected. Cases are numbered
+as in [model.md](model.md) (V), whole systems are C, properties P.
 """
 
 
 def line(result):
-    """One line for the terminal."""
-    worst = max((check.error / check.tolerance for check in result.checks), default=math.nan)
+    """One line for the terminal, and one for every failure."""
+    worst = max((check.error / check.tolerance for check in result.checks if isinstance(check, Check)), default=0.0)
     state = "ok    " if result.passed else "FAILED"
     text = f"{state} {result.case.id:5} {result.case.title}: {worst:.2g} of the tolerance, {result.seconds:.1f} s"
-    failures = [
-        f"\n    {check.what}: expected {_values(check.expected)}, measured {_values(check.measured)}, "
-        f"error {check.error:.3g}, tolerance {check.tolerance:.3g}"
-        for check in result.checks
-        if not check.passed
-    ]
-    return text + "".join(failures) + (f"\n{result.fault}" if result.fault else "")
+    failures = [f"\n    {_sentence(check)}" for check in result.checks if not check.passed]
+    unchecked = "" if result.checks or result.fault else "\n    nothing was checked"
+    return text + "".join(failures) + unchecked + (f"\n{result.fault}" if result.fault else "")
 
 
 def _values(values):
-    if len(values) > 4:
-        low, high = min(values), max(values)
-        spread = f"{low:.7g}" if math.isclose(low, high, rel_tol=1e-6) else f"{low:.7g} to {high:.7g}"
-        return f"{len(values)} times {spread}"
-    return ", ".join(f"{value:.7g}" for value in values)
+    if len(values) <= 6:
+        return ", ".join(f"{value:.7g}" for value in values)
+    low, high = min(values), max(values)
+    spread = f"{low:.7g}" if math.isclose(low, high, rel_tol=1e-6) else f"{low:.7g} to {high:.7g}"
+    return f"{len(values)} times {spread}"
+
+
+def _range(low, high):
+    if math.isinf(low):
+        return f"at most {high:.4g}"
+    if math.isinf(high):
+        return f"at least {low:.4g}"
+    return f"{low:.4g} to {high:.4g}"
+
+
+def _cells(check):
+    """Quantity, expected, measured, error, tolerance, order."""
+    if isinstance(check, Bound):
+        return check.what, _range(check.low, check.high), _values(check.measured), "" if check.passed else FAILS, "", ""
+    error = f"{check.error:.1e}" if check.close else f"{check.error:.1e} {FAILS}"
+    order = "" if math.isnan(check.order) else f"{check.order:.2f}"
+    if not check.converges:
+        order += f", at least {check.least_order} {FAILS}"
+    return check.what, _values(check.expected), _values(check.measured), error, f"{check.tolerance:.2g}", order
+
+
+def _sentence(check):
+    what, *cells = _cells(check)
+    names = ("expected", "measured", "error", "tolerance", "order")
+    return f"{what}: " + ", ".join(f"{name} {cell}" for name, cell in zip(names, cells) if cell)
 
 
 def _row(*cells):
-    return "| " + " | ".join(cells) + " |"
+    return "| " + " | ".join(cell.replace("|", r"\|") for cell in cells) + " |"
 
 
 def _rows(result):
     case = result.case
-    for index, check in enumerate(result.checks):
-        first = index == 0
-        yield _row(
-            f"**{case.id}**{' ★' if case.quick else ''} {case.title}" if first else "",
-            case.source if first else "",
-            check.what,
-            _values(check.expected),
-            _values(check.measured),
-            f"{check.error:.1e}" if check.passed else f"**{check.error:.1e} fails**",
-            f"{check.tolerance:.0e}",
-            "" if math.isnan(check.order) else f"{check.order:.2f}",
-            f"{result.seconds:.1f} s" if first else "",
-        )
+    rows = [_cells(check) for check in result.checks]
+    if result.fault:
+        rows.append((DID_NOT_RUN, "", "", FAILS, "", ""))
+    elif not rows:
+        rows.append(("nothing was checked", "", "", FAILS, "", ""))
+    heads = [(f"**{case.id}**{' ★' if case.quick else ''} {case.title}", case.source, f"{result.seconds:.1f} s")]
+    heads += [("", "", "")] * (len(rows) - 1)
+    for (title, source, seconds), cells in zip(heads, rows):
+        yield _row(title, source, *cells, seconds)
 
 
 def _failures(results):
-    failed = [result for result in results if not result.passed]
-    if not failed:
-        return ["Nothing."]
-    lines = []
-    for result in failed:
-        what = (
-            ", ".join(check.what for check in result.checks if not check.passed)
-            or result.fault.strip().splitlines()[-1]
-        )
-        lines.append(f"- **{result.case.id}** {result.case.title}: {what}")
-    return lines
+    lines = [
+        f"- **{result.case.id}** {result.case.title}: {'; '.join(result.failures)}"
+        for result in results
+        if not result.passed
+    ]
+    return lines or ["Nothing."]
+
+
+def _pictures(results):
+    for result in results:
+        for picture in result.pictures:
+            yield f"![{picture.name}](pictures/validation/{picture.name}.svg)"
+            yield ""
+            yield f"*{picture.caption}*"
+            yield ""
 
 
 def write(path, results, seconds):
@@ -83,7 +108,7 @@ def write(path, results, seconds):
         f"{passed} passed, {len(results) - passed} failed, in {seconds / 60:.1f} minutes on {platform.machine()}.",
         "",
     ]
-    lines += ["## What fails", "", *_failures(results), "", "## Cases", ""]
+    lines += ["## What fails", "", *_failures(results), "", "## Pictures", "", *_pictures(results), "## Cases", ""]
     lines += [
         _row("case", "source", "quantity", "expected", "measured", "error", "tolerance", "order", "time"),
         _row(*["---"] * 9),

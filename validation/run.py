@@ -8,6 +8,7 @@ import pathlib
 import sys
 import time
 import traceback
+from concurrent.futures.process import BrokenProcessPool
 
 from validation import report
 from validation.bench import Bench
@@ -35,7 +36,8 @@ def load_cases():
 
 
 def run_case(id, programs, folder, pictures):
-    """In a process of its own: cases go there and back by their ids, since functions do not travel."""
+    """In a process of its own, where a case goes by its id, since functions do not travel: all of its Result but the
+    case."""
     bench = Bench(programs, folder, pictures)
     checks, fault = [], ""
     start = time.monotonic()
@@ -44,7 +46,7 @@ def run_case(id, programs, folder, pictures):
             checks.append(check)
     except Exception:  # whatever stops a case is its result
         fault = traceback.format_exc(limit=-1)
-    return id, checks, time.monotonic() - start, fault
+    return checks, time.monotonic() - start, fault, bench.drawn
 
 
 def chosen_cases(arguments):
@@ -65,11 +67,15 @@ def main():
     start = time.monotonic()
     results = {}
     with concurrent.futures.ProcessPoolExecutor(arguments.jobs) as pool:
-        runs = [pool.submit(run_case, id, arguments.programs, arguments.results / id, pictures) for id in cases]
+        runs = {pool.submit(run_case, id, arguments.programs, arguments.results / id, pictures): id for id in cases}
         for done in concurrent.futures.as_completed(runs):
-            id, checks, seconds, fault = done.result()
-            result = results[id] = Result(cases[id], checks, seconds, fault)
-            print(f"[{len(results)}/{len(cases)}] {report.line(result)}", flush=True)
+            id = runs[done]
+            try:
+                outcome = done.result()
+            except BrokenProcessPool:  # the pool is lost, and with it all cases that have not ended
+                outcome = [], 0.0, "a process that runs cases was killed", []
+            results[id] = Result(cases[id], *outcome)
+            print(f"[{len(results)}/{len(cases)}] {report.line(results[id])}", flush=True)
     ordered = [results[id] for id in cases]
     if arguments.report:
         report.write(arguments.report, ordered, time.monotonic() - start)
