@@ -304,8 +304,9 @@ std::optional<StimulusCommand> toCommand(const LightDirection& message) {
   return makeCommand(StimulusKind::light_direction, message, toEigen(message.towards));
 }
 
-StimulusCommand toCommand(const geometry_msgs::PointStamped& message) {
-  return {StimulusKind::point_source, StimulusOperation::add, names::kClickedLamp, toEigen(message.point), 1.0};
+StimulusCommand toCommand(const geometry_msgs::PointStamped& message, int number) {
+  return {StimulusKind::point_source, StimulusOperation::add, names::kClickedLamp + std::to_string(number),
+          toEigen(message.point), 1.0};
 }
 
 StimulusCommand toCommand(const geometry_msgs::Vector3Stamped& message) {

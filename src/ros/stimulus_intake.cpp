@@ -28,16 +28,20 @@ std::string describe(const StimulusCommand& command) {
 StimulusIntake::StimulusIntake(ros::NodeHandle node, ros::NodeHandle private_node, const WorldFrame& world,
                                StimulusCounters& counters, Outputs outputs)
     : world_(world), counters_(counters), outputs_(std::move(outputs)), warnings_(std::chrono::seconds(1)) {
-  const auto subscribe = [this](ros::NodeHandle& from, const char* topic, auto message) {
+  const auto subscribe = [this](ros::NodeHandle& from, const char* topic, auto message, auto convert) {
     using Message = decltype(message);
     const boost::function<void(const boost::shared_ptr<const Message>&)> callback =
-        [this](const boost::shared_ptr<const Message>& received) { receive(toCommand(*received), received->header); };
+        [this, convert](const boost::shared_ptr<const Message>& received) {
+          receive(convert(*received), received->header);
+        };
     return from.subscribe<Message>(topic, kQueue, callback);
   };
-  point_source_ = subscribe(private_node, names::kPointSource, PointSource());
-  light_direction_ = subscribe(private_node, names::kLightDirection, LightDirection());
-  clicked_point_ = subscribe(node, names::kClickedPoint, geometry_msgs::PointStamped());
-  sun_ = subscribe(node, names::kSun, geometry_msgs::Vector3Stamped());
+  const auto as_it_says = [](const auto& message) { return toCommand(message); };
+  const auto one_more = [this](const auto& click) { return toCommand(click, ++clicks_); };
+  point_source_ = subscribe(private_node, names::kPointSource, PointSource(), as_it_says);
+  light_direction_ = subscribe(private_node, names::kLightDirection, LightDirection(), as_it_says);
+  clicked_point_ = subscribe(node, names::kClickedPoint, geometry_msgs::PointStamped(), one_more);
+  sun_ = subscribe(node, names::kSun, geometry_msgs::Vector3Stamped(), as_it_says);
   const ros::WallDuration interval(std::chrono::duration<double>(WorldFrame::kRetryInterval).count());
   retry_ = node.createWallTimer(interval, [this](const ros::WallTimerEvent&) { lookAgain(); });
 }

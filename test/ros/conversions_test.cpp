@@ -130,9 +130,9 @@ TEST(Command, ThatRemovesIgnoresTheNumbers) {
 TEST(Command, OfStandardTypes) {
   geometry_msgs::PointStamped click;
   click.point.z = 1.0;
-  EXPECT_EQ(toCommand(click).id, "clicked");
-  EXPECT_EQ(toCommand(click).kind, simulation::StimulusKind::point_source);
-  EXPECT_EQ(toCommand(click).vector, rod::Vector3(0.0, 0.0, 1.0));
+  EXPECT_EQ(toCommand(click, 3).id, "clicked_3");
+  EXPECT_EQ(toCommand(click, 3).kind, simulation::StimulusKind::point_source);
+  EXPECT_EQ(toCommand(click, 3).vector, rod::Vector3(0.0, 0.0, 1.0));
   geometry_msgs::Vector3Stamped sun;
   sun.vector.x = 4.0;
   EXPECT_EQ(toCommand(sun).id, "sun");

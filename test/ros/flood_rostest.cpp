@@ -13,14 +13,17 @@
 
 #include "ros/message_log.h"
 #include "ros/process_fixture.h"
+#include "support/sanitizer.h"
 
 namespace sensory_growth::node::testing {
 namespace {
 
 using namespace std::chrono_literals;
+using support::kHasSanitizer;
 
 constexpr int kLamps = 8;
-constexpr double kPromisedRate = 1e4;  // stimuli that do no harm [1/s]
+constexpr double kPromisedRate = 1e4;             // stimuli that do no harm [1/s]
+constexpr std::size_t kSlack = 64 * 1024 * 1024;  // by which memory in use may grow [byte]
 
 /// Memory in use by a process [byte].
 std::size_t residentMemory(pid_t process) {
@@ -131,11 +134,11 @@ TEST_F(Process, AFloodWhileSteppingLeavesOneChangeOfEachLampInAStep) {
     EXPECT_TRUE(stepped.success) << stepped.message;
     EXPECT_EQ(stepped.step_index, kWarm + kSteps);
     sent = flood.sent();
-    EXPECT_GT(flood.rate(), kPromisedRate);
+    if (!kHasSanitizer) EXPECT_GT(flood.rate(), kPromisedRate);
   }
   const std::size_t after = residentMemory(child.pid());
   EXPECT_GT(before, 0u);
-  EXPECT_LT(after, before + 64 * 1024 * 1024);
+  if (!kHasSanitizer) EXPECT_LT(after, before + kSlack);
 
   const StopRecording::Response stopped = node.call<StopRecording>("stop_recording");
   ASSERT_TRUE(stopped.success) << stopped.message;
@@ -200,11 +203,11 @@ TEST_F(Process, AFloodOfAnyKindLeavesPaceMemoryLogAndServices) {
     node.waitForStatus("stimuli", [&](const Status& s) { return received(s) > received(paused) + 100; });
     const Step::Response stepped = node.step(5);
     EXPECT_EQ(stepped.step_index, paused.step_index + 5) << stepped.message;
-    EXPECT_GT(flood.rate(), kPromisedRate);
+    if (!kHasSanitizer) EXPECT_GT(flood.rate(), kPromisedRate);
     if (before == 0) before = residentMemory(child.pid());
   }
   EXPECT_GT(before, 0u);
-  EXPECT_LT(residentMemory(child.pid()), before + 64 * 1024 * 1024);
+  if (!kHasSanitizer) EXPECT_LT(residentMemory(child.pid()), before + kSlack);
 
   child.signal(SIGINT);
   EXPECT_EQ(child.waitForExit(5s), 0) << child.printed();

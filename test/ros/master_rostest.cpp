@@ -119,7 +119,8 @@ TEST_F(Master, ANodeOutlivesTheMasterAndIsFoundAgain) {
   };
   ChildProcess first = startMaster();
   ChildProcess node = startNode();
-  lookUntil("the service", [&] { return steps("1"); });
+  lookUntil("the service", [&] { return lines({"rosservice", "list"}).count("/orphan/step") > 0; });
+  EXPECT_TRUE(steps("1"));
   const std::set<std::string> services = lines({"rosservice", "list"});
   const std::set<std::string> topics = lines({"rostopic", "list", "-v"});
   first.kill();

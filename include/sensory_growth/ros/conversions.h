@@ -57,8 +57,8 @@ std::optional<simulation::StimulusCommand> toCommand(const LightDirection& messa
 /// The command that was echoed; nothing if its kind or operation is unknown.
 std::optional<simulation::Command> toCommand(const AppliedCommand& message);
 
-/// Places or moves the lamp `names::kClickedLamp`.
-simulation::StimulusCommand toCommand(const geometry_msgs::PointStamped& message);
+/// Adds the lamp of that number, `names::kClickedLamp` and the number.
+simulation::StimulusCommand toCommand(const geometry_msgs::PointStamped& message, int number);
 
 /// Sets the light `names::kSunLight`.
 simulation::StimulusCommand toCommand(const geometry_msgs::Vector3Stamped& message);

@@ -59,7 +59,7 @@ inline constexpr char kSplitRecording[] = "split_recording";
 inline constexpr char kStopRecording[] = "stop_recording";
 
 // Ids of the stimuli that topics of standard types set.
-inline constexpr char kClickedLamp[] = "clicked";
+inline constexpr char kClickedLamp[] = "clicked_";  // and a number
 inline constexpr char kSunLight[] = "sun";
 
 // Handles: that of a stimulus is called <layer>/<id> like its marker. Ids of stimuli that menus add, with a number.

@@ -56,6 +56,7 @@ class StimulusIntake {
   const Outputs outputs_;
   std::vector<Stimulus> waiting_;  // for their transforms, oldest first
   bool has_refused_ = false;
+  int clicks_ = 0;
   WallThrottle warnings_;
 
   ros::Subscriber point_source_, light_direction_, clicked_point_, sun_;
