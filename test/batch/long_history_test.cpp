@@ -102,14 +102,14 @@ TEST_F(LongHistory, OfStimuliIsReplacedByACheckpoint) {
 
 TEST_F(LongHistory, OfLongCommandsIsReplacedToo) {
   moveLamp(StimulusOperation::add, "lamp", 0.05);
-  for (int i = 0; i < 100; ++i) run_.apply(simulation::SpawnCommand{std::string(100000, 'x')});  // refused
+  for (int i = 0; i < 50; ++i) run_.apply(simulation::SpawnCommand{std::string(100000, 'x')});  // refused
   takeSteps(1);
   EXPECT_LT(record("run.bag"), kMostBytes);
   EXPECT_EQ(call({"replay", path("run.bag")}).code, kOk);
 }
 
 TEST_F(LongHistory, OfThatLengthIsForgottenByAReset) {
-  for (int i = 0; i < 100; ++i) run_.apply(simulation::SpawnCommand{std::string(100000, 'x')});
+  for (int i = 0; i < 50; ++i) run_.apply(simulation::SpawnCommand{std::string(100000, 'x')});
   run_.reset();
   moveLamp(StimulusOperation::add, "lamp", 0.05);
   takeSteps(1);
