@@ -30,6 +30,7 @@ class Silent : public node::Reporter {
   void close(const Topic&) override {}
   void publish(const Topic&, const node::Message&) override {}
   void warn(const node::RecordingSummary&) override {}
+  void warnOfSize(const std::string&) override {}
 };
 
 class LongHistory : public InFolder {
