@@ -73,4 +73,8 @@ void Publishers::warn(const RecordingSummary& summary) {
                                                               << " messages: " << summary.error);
 }
 
+void Publishers::warnOfSize(const std::string& why) {
+  ROS_WARN_STREAM_NAMED(names::kLogRecording, recordingPath() << " is full and goes on: " << why);
+}
+
 }  // namespace sensory_growth::node

@@ -17,22 +17,33 @@ std::string partOf(const std::string& file, int part) {
 std::optional<std::string> Recorder::start(const std::string& file) {
   if (recording_) return "already recording " + recording_->path();
   finishPrevious();
+  try {
+    setRecording(open(file));
+  } catch (const std::exception& refusal) {
+    return refusal.what();
+  }
   first_file_ = file;
-  parts_ = 0;
-  return open(file);
+  part_ = 0;
+  return std::nullopt;
 }
 
 std::optional<std::string> Recorder::split() {
   if (!recording_) return "nothing is being recorded";
+  std::unique_ptr<Recording> next;
+  int part = 0;
+  try {
+    part = nextPart();
+    next = open(partOf(first_file_, part));
+  } catch (const std::exception& refusal) {
+    full_size_ = recording_->size() + settings_.split_size;
+    return refusal.what();
+  }
   finishPrevious();
   recording_->finishSoon();
   previous_ = std::move(recording_);
-  auto refusal = open(partOf(first_file_, ++parts_));
-  if (refusal) {
-    setRecording(nullptr);
-    noteFailure({previous_->path(), 0, *refusal});
-  }
-  return refusal;
+  setRecording(std::move(next));
+  part_ = part;
+  return std::nullopt;
 }
 
 void Recorder::stop(const std::string& why) {
@@ -41,9 +52,7 @@ void Recorder::stop(const std::string& why) {
   noteFailure(summary);
 }
 
-bool Recorder::isFull() const {
-  return recording_ && settings_.split_size > 0 && recording_->size() >= settings_.split_size;
-}
+bool Recorder::isFull() const { return recording_ && settings_.split_size > 0 && recording_->size() >= full_size_; }
 
 std::unique_ptr<Recording> Recorder::take() {
   finishPrevious();
@@ -67,13 +76,15 @@ std::string Recorder::failure() const {
   return failure_;
 }
 
-std::optional<std::string> Recorder::open(const std::string& file) {
-  try {
-    setRecording(std::make_unique<Recording>(recordingPath(settings_.directory, file), settings_.recording));
-  } catch (const std::exception& refusal) {
-    return refusal.what();
-  }
-  return std::nullopt;
+/// Throws std::exception if it cannot.
+std::unique_ptr<Recording> Recorder::open(const std::string& file) const {
+  return std::make_unique<Recording>(recordingPath(settings_.directory, file), settings_.recording);
+}
+
+int Recorder::nextPart() const {
+  int part = part_ + 1;
+  while (recordingAt(std::filesystem::path(settings_.directory) / partOf(first_file_, part))) ++part;
+  return part;
 }
 
 void Recorder::finishPrevious() {
@@ -84,6 +95,7 @@ void Recorder::finishPrevious() {
 
 void Recorder::setRecording(std::unique_ptr<Recording> recording) {
   recording_ = std::move(recording);
+  full_size_ = settings_.split_size;
   const std::lock_guard<std::mutex> lock(mutex_);
   path_ = recording_ ? recording_->path() : "";
   if (recording_) failure_.clear();

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <limits>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -19,6 +20,7 @@ constexpr std::size_t kMostQueued = 64;               // messages; what waits mu
 constexpr std::uint64_t kSpaceCheckInterval = 100;    // messages
 constexpr std::uint32_t kChunkThreshold = 64 * 1024;  // [byte]
 constexpr std::chrono::milliseconds kFlushInterval{50};
+constexpr std::chrono::milliseconds kMostLag{100};
 
 rosbag::CompressionType toRosbag(Compression compression) {
   switch (compression) {
@@ -48,23 +50,37 @@ std::string describe(const std::exception& failure) {
 
 }  // namespace
 
+double freeSpace(const std::string& directory) {
+  std::error_code unknown;
+  const auto space = std::filesystem::space(directory, unknown);
+  return unknown ? std::numeric_limits<double>::infinity() : static_cast<double>(space.available);
+}
+
+std::optional<std::string> recordingAt(const std::string& path) {
+  for (const std::string& taken : {path, path + kActive}) {
+    if (std::filesystem::exists(taken)) return taken;
+  }
+  return std::nullopt;
+}
+
 std::string recordingPath(const std::string& directory, const std::string& file) {
   const std::string path = confinedPath({"recording_directory", directory, ".bag"}, file);
-  for (const std::string& taken : {path, path + kActive}) {
-    if (std::filesystem::exists(taken)) throw std::invalid_argument(taken + " exists already");
-  }
+  if (const auto taken = recordingAt(path)) throw std::invalid_argument(*taken + " exists already");
   return path;
 }
 
 Recording::Recording(const std::string& path, const RecordingSettings& settings)
     : path_(path), settings_(settings), bag_(std::make_unique<rosbag::Bag>()) {
   if (!hasSpace()) throw std::runtime_error("the disk of " + path_ + " has too little free space");
+  errno = 0;
   try {
     bag_->open(path_ + kActive, rosbag::bagmode::Write);
     bag_->setCompression(toRosbag(settings_.compression));
     bag_->setChunkThreshold(kChunkThreshold);
   } catch (const rosbag::BagException& error) {
-    throw std::runtime_error("cannot write " + path_ + ": " + error.what());
+    const std::string why = describe(error);
+    if (bag_->isOpen()) abandon(std::move(bag_));
+    throw std::runtime_error("cannot write " + path_ + ": " + why);
   }
   thread_ = std::thread([this] { run(); });
 }
@@ -90,13 +106,17 @@ void Recording::countFromHere() {
   push([this](rosbag::Bag& bag) { uncounted_size_ = bag.getSize(); });
 }
 
-void Recording::push(Entry entry) {
-  if (failed_) return;
+void Recording::push(std::function<void(rosbag::Bag&)> write) {
   std::unique_lock<std::mutex> lock(mutex_);
-  changed_.wait(lock, [this] { return queue_.size() < kMostQueued || failed_; });
-  queue_.push_back(std::move(entry));
+  changed_.wait(lock, [this] { return is_failing_ || (queue_.size() < kMostQueued && !lags()); });
+  if (is_failing_) return;
+  const Time now = std::chrono::steady_clock::now();
+  if (!oldest_) oldest_ = now;
+  queue_.push_back({now, std::move(write)});
   changed_.notify_all();
 }
+
+bool Recording::lags() const { return oldest_ && std::chrono::steady_clock::now() - *oldest_ > kMostLag; }
 
 void Recording::run() {
   do {
@@ -104,6 +124,7 @@ void Recording::run() {
     if (flush_due_ && std::chrono::steady_clock::now() >= *flush_due_) flush();
   } while (!isDone());
   close();
+  has_failed_ = !error_.empty();
 }
 
 /// Nothing if a flush is due first, or if there will be no more.
@@ -124,17 +145,16 @@ std::optional<Recording::Entry> Recording::waitForEntry() {
 
 bool Recording::isDone() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return is_finishing_ && queue_.empty();
+  return is_failing_ || (is_finishing_ && queue_.empty());
 }
 
 void Recording::writeEntry(const Entry& entry) {
-  if (failed_) return;
   if (messages_ % kSpaceCheckInterval == 0 && !hasSpace()) {
     return fail("the disk has too little free space left");
   }
   errno = 0;
   try {
-    entry(*bag_);
+    entry.write(*bag_);
     if (bag_->getChunkThreshold() == 0) bag_->setChunkThreshold(kChunkThreshold);  // see flush()
     if (uncounted_size_) size_ = bag_->getSize() - *uncounted_size_;
   } catch (const std::exception& failure) {
@@ -145,15 +165,18 @@ void Recording::writeEntry(const Entry& entry) {
 
 void Recording::flush() {
   flush_due_.reset();
-  if (failed_) return;
   errno = 0;
   try {
     // Ends the open chunk, which writes it. The next message makes a chunk of its own: a chunk that ends because it is
     // full lets go of the copy that rosbag keeps, and one that is ended from outside does not.
     bag_->setChunkThreshold(0);
   } catch (const std::exception& failure) {
-    fail(describe(failure));
+    return fail(describe(failure));
   }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  oldest_.reset();
+  if (!queue_.empty()) oldest_ = queue_.front().handed_in;
+  changed_.notify_all();
 }
 
 void Recording::close() {
@@ -172,13 +195,13 @@ void Recording::close() {
 
 void Recording::fail(const std::string& why) {
   if (error_.empty()) error_ = why;
-  failed_ = true;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  is_failing_ = true;
+  changed_.notify_all();
 }
 
 bool Recording::hasSpace() const {
-  std::error_code unknown;
-  const auto space = std::filesystem::space(std::filesystem::path(path_).parent_path(), unknown);
-  return unknown || static_cast<double>(space.available) >= settings_.minimum_free_space;
+  return settings_.free_space(std::filesystem::path(path_).parent_path()) >= settings_.minimum_free_space;
 }
 
 }  // namespace sensory_growth::node

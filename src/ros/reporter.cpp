@@ -142,7 +142,8 @@ void Reporter::onStatus(const RunStatus& status, const Snapshot& snapshot) {
   const Message shown = shared(std::move(message));
   send(topics_.status, snapshot.stamp, shown);
   if (!recorder_.isFull() || history_is_cut_) return;
-  if (!splitRecording(snapshot)) record(topics_.status, snapshot.stamp, shown);
+  if (const auto refusal = splitRecording(snapshot)) return warnOfSize(*refusal);
+  record(topics_.status, snapshot.stamp, shown);
 }
 
 simulation::Checkpoint Reporter::checkpointOf(simulation::SimulationState state) const {
@@ -255,7 +256,8 @@ void Reporter::goBack(const Snapshot& snapshot) {
   publish(topics_.tf_static, shared(staticTransforms(snapshot, frames_)));
   if (!recorder_.recording()) return;
   if (history_is_cut_) return recorder_.stop(kHistoryIsCut);
-  if (!recorder_.split()) beginBag(snapshot);
+  if (const auto refusal = recorder_.split()) return recorder_.stop(*refusal);
+  beginBag(snapshot);
 }
 
 void Reporter::keep(Message command) {

@@ -128,6 +128,41 @@ TEST_F(RunTest, InterruptedLeavesAClosedBag) {
   EXPECT_EQ(readTopic<OrganState>(rosbag::Bag(path("run.bag")), "/sensory_growth/organs/shoot/state").size(), 7u);
 }
 
+TEST_F(RunTest, SplitsABagIntoPartsThatReplay) {
+  constexpr double kSize = 1e6;  // the smallest that a node takes
+  node::Parameters parameters;
+  parameters.scenario = kShoot;
+  parameters.growth_time_scale = 60.0;
+  parameters.recording_split_size = kSize;
+  parameters.recording_compression = node::Compression::none;
+  recordTo(path("run.bag"), parameters);
+  std::vector<std::string> problems;
+  BatchRun run(parameters, node::loadScenario(parameters, "/sensory_growth", problems), [](const node::Message&) {});
+  while (!run.finished()) ASSERT_EQ(run.step(), std::nullopt);
+  const std::string last = run.finish()->path;
+
+  std::uint64_t step = 0;
+  int parts = 0;
+  for (std::string file = path("run.bag"); std::filesystem::exists(file); ++parts) {
+    const auto states = readTopic<OrganState>(rosbag::Bag(file), "/sensory_growth/organs/shoot/state");
+    const auto statuses = readTopic<Status>(rosbag::Bag(file), "/sensory_growth/status");
+    ASSERT_EQ(states.size(), statuses.size());
+    for (std::size_t i = 0; i < states.size(); ++i, ++step) {
+      EXPECT_EQ(states[i].step_index, step) << file;
+      EXPECT_EQ(statuses[i].step_index, step) << file;
+    }
+    --step;  // the last state is the first of the next part
+    EXPECT_EQ(call({"replay", file}).code, kOk) << file;
+    if (file == last) {
+      EXPECT_EQ(step, 240u);
+    } else {
+      EXPECT_GE(std::filesystem::file_size(file), static_cast<std::uintmax_t>(kSize));
+    }
+    file = path("run_" + std::to_string(parts + 1) + ".bag");
+  }
+  EXPECT_GE(parts, 3);
+}
+
 /// Steps may be cut in two, which is not enough for limits as tight as these.
 TEST_F(RunTest, FailsWithTheStepAndTheReasonOfTheNode) {
   std::string scenario = textOf(kShoot);

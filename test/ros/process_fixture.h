@@ -51,16 +51,6 @@ class Process : public ::testing::Test {
     }
   }
 
-  /// The master keeps a node that was killed, as a publisher of /clock among others.
-  void unregisterClock() {
-    XmlRpc::XmlRpcValue request, response, answer;
-    request[0] = request[1] = name_;
-    ASSERT_TRUE(ros::master::execute("lookupNode", request, response, answer, false));
-    request[1] = "/clock";
-    request[2] = answer;
-    ASSERT_TRUE(ros::master::execute("unregisterPublisher", request, response, answer, false));
-  }
-
   /// States in a bag that was not closed, from step 0 on; none missing.
   std::size_t recoveredStates(const std::string& unfinished) {
     const std::string reindex = "rosbag reindex -q '" + unfinished + "'";

@@ -8,6 +8,10 @@
 
 #include <filesystem>
 #include <fstream>
+#include <optional>
+#include <string>
+
+#include "ros/wait.h"
 
 namespace sensory_growth::node {
 namespace {
@@ -77,24 +81,80 @@ TEST_F(RecorderTest, IsFullWhenTheFileHasGrownBySplitSize) {
   EXPECT_TRUE(recorder.isFull());
 }
 
+TEST_F(RecorderTest, LeavesPartsOfEarlierRunsAlone) {
+  for (const char* left_over : {"run_1.bag", "run_2.bag.active"}) std::ofstream(directory_ / left_over) << "precious";
+  Recorder recorder(settings());
+  ASSERT_FALSE(recorder.start("run.bag"));
+  write(recorder, 1);
+  for (const char* part : {"run_3.bag", "run_4.bag"}) {
+    ASSERT_FALSE(recorder.split());
+    EXPECT_EQ(recorder.path(), directory_ / part);
+    write(recorder, 2);
+  }
+  EXPECT_EQ(recorder.take()->finish().error, "");
+  for (const char* part : {"run.bag", "run_3.bag", "run_4.bag"}) EXPECT_EQ(messagesIn(part), 1u) << part;
+  EXPECT_EQ(std::filesystem::file_size(directory_ / "run_1.bag"), std::string("precious").size());
+}
+
+TEST_F(RecorderTest, GoesOnInTheSameBagWhenTheNextCannotBeOpened) {
+  constexpr std::size_t kMessage = 10000;
+  constexpr std::uint64_t kSize = 200 * kMessage;  // much more than a queue holds
+  Recorder recorder(settings(kSize));
+  ASSERT_FALSE(recorder.start("run.bag"));
+  recorder.recording()->countFromHere();
+  std::size_t messages = 0;
+  const auto write_until_full = [&] {
+    for (; !recorder.isFull() && messages < 1000; ++messages) write(recorder, static_cast<int>(messages), kMessage);
+  };
+  write_until_full();
+  const std::filesystem::path elsewhere = directory_.string() + "_elsewhere";
+  std::filesystem::rename(directory_, elsewhere);
+  const auto refusal = recorder.split();
+  std::filesystem::rename(elsewhere, directory_);
+  ASSERT_TRUE(refusal);
+  EXPECT_THAT(*refusal, HasSubstr("run_1.bag: Error opening file"));
+  EXPECT_EQ(recorder.path(), directory_ / "run.bag");
+  EXPECT_EQ(recorder.failure(), "");
+  EXPECT_FALSE(recorder.takeFailure());
+  EXPECT_FALSE(recorder.isFull());  // again when it has grown by as much again
+  write_until_full();
+  EXPECT_GE(recorder.recording()->size(), 2 * kSize);
+
+  ASSERT_FALSE(recorder.split());
+  EXPECT_EQ(recorder.path(), directory_ / "run_1.bag");
+  EXPECT_EQ(recorder.take()->finish().error, "");
+  EXPECT_EQ(messagesIn("run.bag"), messages);
+}
+
 TEST_F(RecorderTest, SaysWhyItStopped) {
   Recorder recorder(settings());
   ASSERT_FALSE(recorder.start("run.bag"));
   write(recorder, 1);
-  std::ofstream(directory_ / "run_1.bag").put('x');
-  const auto refusal = recorder.split();
-  ASSERT_TRUE(refusal);
-  EXPECT_THAT(*refusal, HasSubstr("exists already"));
+  recorder.stop("it was asked to");
   EXPECT_EQ(recorder.recording(), nullptr);
   EXPECT_EQ(recorder.path(), "");
-  EXPECT_THAT(recorder.failure(), HasSubstr("run_1.bag exists already"));
-  EXPECT_THAT(recorder.takeFailure()->error, HasSubstr("exists already"));
+  EXPECT_THAT(recorder.failure(), HasSubstr("run.bag: it was asked to"));
+  EXPECT_EQ(recorder.takeFailure()->error, "it was asked to");
   EXPECT_FALSE(recorder.takeFailure());  // said once
-  EXPECT_THAT(recorder.failure(), HasSubstr("exists already"));
+  EXPECT_THAT(recorder.failure(), HasSubstr("it was asked to"));
+  EXPECT_EQ(messagesIn("run.bag"), 1u);
 
   ASSERT_FALSE(recorder.start("again.bag"));
   EXPECT_EQ(recorder.failure(), "");
-  EXPECT_EQ(messagesIn("run.bag"), 1u);  // the part before was closed
+}
+
+TEST_F(RecorderTest, LetsABagGoOnceItHasFailedAndIsClosed) {
+  Recorder recorder(settings());
+  ASSERT_FALSE(recorder.start("run.bag"));
+  write(recorder, 1);
+  EXPECT_FALSE(recorder.takeFailure());
+  write(recorder, -1);  // rosbag refuses time zero
+  std::optional<RecordingSummary> failure;
+  testing::lookUntil("the failure", [&] { return (failure = recorder.takeFailure()).has_value(); });
+  EXPECT_THAT(failure->error, HasSubstr("TIME_MIN"));
+  EXPECT_EQ(recorder.recording(), nullptr);
+  EXPECT_EQ(recorder.path(), "");
+  EXPECT_EQ(messagesIn("run.bag"), 1u);
 }
 
 }  // namespace

@@ -1,18 +1,28 @@
 #include "sensory_growth/ros/recording.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rosbag/view.h>
 #include <std_msgs/String.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <future>
 #include <stdexcept>
+#include <string>
+#include <system_error>
+#include <thread>
+
+#include "ros/wait.h"
 
 namespace sensory_growth::node {
 namespace {
 
+using namespace std::chrono_literals;
 using ::testing::HasSubstr;
 
 class RecordingTest : public ::testing::Test {
@@ -33,12 +43,24 @@ class RecordingTest : public ::testing::Test {
   }
 
   const std::filesystem::path directory_;
+  std::atomic<bool> is_open_{false};
 };
 
 boost::shared_ptr<const std_msgs::String> text(const std::string& data) {
   auto message = boost::make_shared<std_msgs::String>();
   message->data = data;
   return message;
+}
+
+/// From now on whoever has the file open has no space left.
+void fill(const std::string& path) {
+  const int full = open("/dev/full", O_RDWR);
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+    std::error_code gone;  // that of the directory itself
+    if (std::filesystem::read_symlink(entry.path(), gone) != path) continue;
+    EXPECT_NE(dup2(full, std::stoi(entry.path().filename())), -1);
+  }
+  close(full);
 }
 
 TEST_F(RecordingTest, StaysInItsDirectory) {
@@ -80,6 +102,70 @@ TEST_F(RecordingTest, HoldsEveryMessageInOrderAndIsRenamedWhenClosed) {
 
 TEST_F(RecordingTest, NeedsSpaceOnTheDisk) {
   EXPECT_THROW(Recording(directory_ / "run.bag", {Compression::none, 1e30, "/node"}), std::runtime_error);
+}
+
+TEST_F(RecordingTest, EndsBeforeTheDiskIsFull) {
+  constexpr double kMinimum = 1e9;
+  std::atomic<double> space{2.0 * kMinimum};
+  Recording recording(directory_ / "run.bag", {Compression::none, kMinimum, "/node", [&](const std::string& directory) {
+                                                 EXPECT_EQ(directory, directory_);
+                                                 return space.load();
+                                               }});
+  const auto write = [&](int message) { recording.write("/topic", false, ros::Time(1 + message, 0), text("x")); };
+  constexpr int kBefore = 30, kChecked = 100;  // once in so many messages
+  for (int i = 0; i < kBefore; ++i) write(i);
+  space = 0.9 * kMinimum;
+  for (int i = kBefore; i < 3 * kChecked; ++i) write(i);  // nobody waits for ever
+  testing::lookUntil("the end", [&] { return recording.failed(); });
+  EXPECT_TRUE(std::filesystem::exists(directory_ / "run.bag"));  // closed before anybody asked
+  const RecordingSummary summary = recording.finish();
+  EXPECT_THAT(summary.error, HasSubstr("too little free space left"));
+  EXPECT_LE(summary.messages, static_cast<std::uint64_t>(kChecked));
+  rosbag::Bag bag(summary.path, rosbag::bagmode::Read);
+  EXPECT_EQ(rosbag::View(bag).size(), summary.messages);
+}
+
+/// So a process that is killed loses little, however busy machine and disk are.
+TEST_F(RecordingTest, LetsNobodyGoFarAheadOfTheFile) {
+  std::promise<void> goes_on;
+  const RecordingSettings settings{Compression::none, 0.0, "/node", [&, waits = goes_on.get_future().share()](auto&) {
+                                     if (is_open_) waits.wait();
+                                     return 1e9;
+                                   }};
+  Recording recording(directory_ / "run.bag", settings);
+  is_open_ = true;
+  constexpr int kMessages = 20;  // fewer than a queue holds
+  auto writing = std::async(std::launch::async, [&] {
+    const auto begin = std::chrono::steady_clock::now();
+    for (int i = 0; i < kMessages; ++i) {
+      while (std::chrono::steady_clock::now() < begin + i * 10ms) std::this_thread::yield();
+      recording.write("/topic", false, ros::Time(1 + i, 0), text("x"));
+    }
+  });
+  EXPECT_EQ(writing.wait_for(1s), std::future_status::timeout);
+  goes_on.set_value();
+  writing.get();
+  EXPECT_EQ(recording.finish().messages, static_cast<std::uint64_t>(kMessages));
+}
+
+TEST_F(RecordingTest, EndsWhenTheDiskIsFull) {
+  Recording recording(directory_ / "run.bag", {Compression::none, 0.0, "/node"});
+  fill(directory_ / "run.bag.active");
+  for (int i = 0; i < 300; ++i) recording.write("/topic", false, ros::Time(1 + i, 0), text(std::string(1000, 'x')));
+  testing::lookUntil("the end", [&] { return recording.failed(); });
+  const RecordingSummary summary = recording.finish();
+  EXPECT_THAT(summary.error, HasSubstr("No space left on device"));
+  EXPECT_EQ(summary.path, directory_ / "run.bag.active");
+}
+
+TEST_F(RecordingTest, DoesNotBeginOnAFullDisk) {
+  std::filesystem::create_symlink("/dev/full", directory_ / "run.bag.active");
+  try {
+    Recording(directory_ / "run.bag", {Compression::none, 0.0, "/node"});
+    FAIL() << "it began";
+  } catch (const std::runtime_error& refusal) {
+    EXPECT_THAT(refusal.what(), HasSubstr("No space left on device"));
+  }
 }
 
 TEST_F(RecordingTest, SurvivesAMessageThatCannotBeWritten) {

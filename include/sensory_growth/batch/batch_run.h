@@ -62,6 +62,7 @@ class BatchRun {
     void close(const Topic&) override {}
     void publish(const Topic& topic, const node::Message& message) override;
     void warn(const node::RecordingSummary& summary) override { failure = summary; }
+    void warnOfSize(const std::string&) override {}
 
     const Watch watch_;
   };

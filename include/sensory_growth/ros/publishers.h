@@ -35,6 +35,7 @@ class Publishers : public Reporter {
   void close(const Topic& topic) override;
   void publish(const Topic& topic, const Message& message) override;
   void warn(const RecordingSummary& summary) override;
+  void warnOfSize(const std::string& why) override;
 
   ros::NodeHandle node_;
   tf2_ros::TransformBroadcaster tf_broadcaster_;

@@ -26,8 +26,9 @@ class Recorder {
   /// Opens a bag. Returns why it failed, or nothing.
   std::optional<std::string> start(const std::string& file);
 
-  /// Lets the next part begin: run.bag is followed by run_1.bag, run_2.bag. Nobody waits for the one before to be
-  /// closed. Returns why it failed, or nothing; then nothing is recorded any more.
+  /// Lets the next part begin: run.bag is followed by run_1.bag, run_2.bag, but for numbers that are taken. Nobody
+  /// waits for the one before to be closed. Returns why it failed, or nothing; then the open bag goes on, and is full
+  /// again when it has grown by as much again.
   std::optional<std::string> split();
 
   /// Closes the open bag early, because of `why`.
@@ -42,7 +43,7 @@ class Recorder {
   /// Hands the open bag over, to be finished elsewhere; null if there is none. All parts before are finished.
   std::unique_ptr<Recording> take();
 
-  /// What ended early since the last call, with the reason, or nothing. An open bag that failed is closed.
+  /// What ended early since the last call, with the reason, or nothing.
   std::optional<RecordingSummary> takeFailure();
 
   /// Path of the open bag; empty if there is none. From any thread.
@@ -52,14 +53,16 @@ class Recorder {
   std::string failure() const;
 
  private:
-  std::optional<std::string> open(const std::string& file);
+  std::unique_ptr<Recording> open(const std::string& file) const;
+  int nextPart() const;
   void finishPrevious();
   void setRecording(std::unique_ptr<Recording> recording);
   void noteFailure(const RecordingSummary& summary);
 
   const RecorderSettings settings_;
-  std::string first_file_;  // of the parts
-  int parts_ = 0;           // after the first
+  std::string first_file_;       // of the parts
+  int part_ = 0;                 // number of the open one, after the first
+  std::uint64_t full_size_ = 0;  // of the open one [byte]
   std::unique_ptr<Recording> recording_;
   std::unique_ptr<Recording> previous_;  // part that is being closed
   std::optional<RecordingSummary> failed_;

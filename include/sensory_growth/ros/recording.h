@@ -1,8 +1,8 @@
 #pragma once
 
 /// One bag being written, on a thread of its own. Nothing that was handed in is lost while the disk takes it: a full
-/// queue makes the caller wait. What was handed in is in the file within 0.1 s of wall time, so that little is lost if
-/// the process is killed.
+/// queue makes the caller wait. So does a message that was handed in 0.1 s of wall time ago and is not yet in the file;
+/// what is lost if the process is killed is no older than that when the last message was handed in.
 
 #include <ros/message_traits.h>
 #include <ros/time.h>
@@ -26,10 +26,14 @@
 
 namespace sensory_growth::node {
 
+/// Space that is left on the disk of a directory [byte]; infinite if that cannot be told.
+double freeSpace(const std::string& directory);
+
 struct RecordingSettings {
   Compression compression = Compression::lz4;
   double minimum_free_space = 0.0;  ///< recording stops when the disk has less [byte]
   std::string caller;               ///< name of the node, kept with every topic
+  std::function<double(const std::string& directory)> free_space = freeSpace;
 };
 
 struct RecordingSummary {
@@ -37,6 +41,9 @@ struct RecordingSummary {
   std::uint64_t messages = 0;
   std::string error;  ///< why recording ended early; empty if it did not
 };
+
+/// Which file there is already at `path` or at its unfinished form, or nothing.
+std::optional<std::string> recordingAt(const std::string& path);
 
 /// Path of `file` inside `directory`. Throws std::invalid_argument unless `file` is a plain name that ends in ".bag"
 /// and neither it nor its unfinished form exists.
@@ -71,8 +78,8 @@ class Recording {
     });
   }
 
-  /// True once writing has failed; what is handed in afterwards is dropped.
-  bool failed() const { return failed_; }
+  /// True once writing has failed and the bag was closed for that, so that finish() need not wait.
+  bool failed() const { return has_failed_; }
 
   const std::string& path() const { return path_; }
 
@@ -90,9 +97,15 @@ class Recording {
   RecordingSummary finish();
 
  private:
-  using Entry = std::function<void(rosbag::Bag&)>;
+  using Time = std::chrono::steady_clock::time_point;
 
-  void push(Entry entry);
+  struct Entry {
+    Time handed_in;
+    std::function<void(rosbag::Bag&)> write;
+  };
+
+  void push(std::function<void(rosbag::Bag&)> write);
+  bool lags() const;
   void run();
   std::optional<Entry> waitForEntry();
   bool isDone();
@@ -107,20 +120,22 @@ class Recording {
 
   // Of the writing thread alone, and of finish() once that has ended.
   std::unique_ptr<rosbag::Bag> bag_;
-  std::optional<std::chrono::steady_clock::time_point> flush_due_;  // nothing: all that was written is in the file
+  std::optional<Time> flush_due_;  // nothing: all that was written is in the file
   std::map<std::string, boost::shared_ptr<ros::M_string>> headers_;
   std::uint64_t messages_ = 0;
   std::optional<std::uint64_t> uncounted_size_;  // [byte]; nothing: nothing is counted yet
   std::string error_;
   bool is_unfinished_ = false;
 
-  std::atomic<bool> failed_{false};
+  std::atomic<bool> has_failed_{false};
   std::atomic<std::uint64_t> size_{0};
   std::mutex finish_mutex_;  // locked before mutex_
   std::mutex mutex_;         // guards what follows
   std::condition_variable changed_;
   std::deque<Entry> queue_;
+  std::optional<Time> oldest_;  // of what is not in the file; nothing: all is
   bool is_finishing_ = false;
+  bool is_failing_ = false;  // what is handed in is dropped
 
   std::thread thread_;
 };

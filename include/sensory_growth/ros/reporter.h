@@ -74,7 +74,7 @@ class Reporter : public RunListener {
   std::optional<std::string> startRecording(const std::string& file, const Snapshot& snapshot);
 
   /// Goes on in another bag, which begins like the first, so that it runs the same without the one before. On the
-  /// thread of the run. Returns why it failed, or nothing.
+  /// thread of the run. Returns why it failed and the open bag goes on, or nothing.
   std::optional<std::string> splitRecording(const Snapshot& snapshot);
 
   /// Hands the open bag over, to be finished elsewhere; null if there is none. On the thread of the run.
@@ -105,6 +105,9 @@ class Reporter : public RunListener {
 
   /// Called when recording ended early.
   virtual void warn(const RecordingSummary& summary) = 0;
+
+  /// Called when the open bag grows beyond its size, because the next cannot be begun.
+  virtual void warnOfSize(const std::string& why) = 0;
 
   /// Publishes the texts that the run started from.
   void publishSources();
