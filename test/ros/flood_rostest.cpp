@@ -134,11 +134,15 @@ TEST_F(Process, AFloodWhileSteppingLeavesOneChangeOfEachLampInAStep) {
     EXPECT_TRUE(stepped.success) << stepped.message;
     EXPECT_EQ(stepped.step_index, kWarm + kSteps);
     sent = flood.sent();
-    if (!kHasSanitizer) EXPECT_GT(flood.rate(), kPromisedRate);
+    if (!kHasSanitizer) {
+      EXPECT_GT(flood.rate(), kPromisedRate);
+    }
   }
   const std::size_t after = residentMemory(child.pid());
   EXPECT_GT(before, 0u);
-  if (!kHasSanitizer) EXPECT_LT(after, before + kSlack);
+  if (!kHasSanitizer) {
+    EXPECT_LT(after, before + kSlack);
+  }
 
   const StopRecording::Response stopped = node.call<StopRecording>("stop_recording");
   ASSERT_TRUE(stopped.success) << stopped.message;
@@ -203,11 +207,15 @@ TEST_F(Process, AFloodOfAnyKindLeavesPaceMemoryLogAndServices) {
     node.waitForStatus("stimuli", [&](const Status& s) { return received(s) > received(paused) + 100; });
     const Step::Response stepped = node.step(5);
     EXPECT_EQ(stepped.step_index, paused.step_index + 5) << stepped.message;
-    if (!kHasSanitizer) EXPECT_GT(flood.rate(), kPromisedRate);
+    if (!kHasSanitizer) {
+      EXPECT_GT(flood.rate(), kPromisedRate);
+    }
     if (before == 0) before = residentMemory(child.pid());
   }
   EXPECT_GT(before, 0u);
-  if (!kHasSanitizer) EXPECT_LT(residentMemory(child.pid()), before + kSlack);
+  if (!kHasSanitizer) {
+    EXPECT_LT(residentMemory(child.pid()), before + kSlack);
+  }
 
   child.signal(SIGINT);
   EXPECT_EQ(child.waitForExit(5s), 0) << child.printed();
