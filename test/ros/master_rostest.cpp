@@ -98,7 +98,7 @@ class Master : public Process {
     request[2] = address;
     request[3] = ros::XMLRPCManager::instance()->getServerURI();
     EXPECT_TRUE(ros::master::execute("registerService", request, response, answer, false));
-    return ros::NodeHandle().serviceClient<Service>(service);
+    return ros::NodeHandle().serviceClient<Service>(service, true);  // persistent: see service_call.h
   }
 
   static SpawnOrgan spawn(const std::string& organ) {

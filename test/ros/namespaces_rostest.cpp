@@ -11,6 +11,7 @@
 
 #include "ros/message_log.h"
 #include "ros/node_under_test.h"
+#include "ros/service_call.h"
 
 namespace sensory_growth::node::testing {
 namespace {
@@ -47,7 +48,7 @@ TEST(Namespaces, EveryTopicCanBeRemapped) {
   Step step;
   step.request.steps = 3;
   ASSERT_TRUE(ros::service::waitForService(c + "/step", ros::Duration(kPatience.count())));
-  ASSERT_TRUE(ros::service::call(c + "/step", step) && step.response.success) << step.response.message;
+  ASSERT_TRUE(callService(c + "/step", step) && step.response.success) << step.response.message;
 
   XmlRpc::XmlRpcValue request, response, state;
   request[0] = ros::this_node::getName();

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "ros/service_call.h"
 #include "ros/wait.h"
 #include "sensory_growth/AppliedCommand.h"
 #include "sensory_growth/Command.h"
@@ -64,11 +65,12 @@ class NodeUnderTest {
   /// Calls a service that must exist; what it answers is up to the test.
   template <typename Service>
   typename Service::Response call(const std::string& name, const typename Service::Request& request = {}) {
-    typename Service::Response response;
-    EXPECT_TRUE(ros::service::waitForService(node_.resolveName(name), ros::Duration(kPatience.count()))) << name;
-    EXPECT_TRUE(node_.serviceClient<Service>(name).call(const_cast<typename Service::Request&>(request), response))
-        << name;
-    return response;
+    Service service;
+    service.request = request;
+    const std::string resolved = node_.resolveName(name);
+    EXPECT_TRUE(ros::service::waitForService(resolved, ros::Duration(kPatience.count()))) << name;
+    EXPECT_TRUE(callService(resolved, service)) << name;
+    return service.response;
   }
 
   sensory_growth::Command::Response command(const std::string& name) { return call<sensory_growth::Command>(name); }

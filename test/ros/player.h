@@ -12,6 +12,7 @@
 #include <string>
 
 #include "ros/node_under_test.h"
+#include "ros/service_call.h"
 
 namespace sensory_growth::node::testing {
 
@@ -38,7 +39,7 @@ void startPlaying(const std::string& player, std::chrono::seconds patience, cons
   }
   std_srvs::SetBool go_on;
   go_on.request.data = false;
-  EXPECT_TRUE(ros::service::call(service, go_on));
+  EXPECT_TRUE(callService(service, go_on));
 }
 
 }  // namespace sensory_growth::node::testing

@@ -13,6 +13,7 @@
 #include "ros/message_log.h"
 #include "ros/node_under_test.h"
 #include "ros/process_fixture.h"
+#include "ros/service_call.h"
 
 namespace sensory_growth::node::testing {
 namespace {
@@ -162,7 +163,7 @@ TEST_F(Process, InterruptedWhileAServiceWaitsAnswersIt) {
     auto waiting = std::async(std::launch::async, [&] {
       Step step;
       step.request.steps = 1000000;
-      return ros::service::call(name_ + "/step", step) && step.response.success;
+      return callService(name_ + "/step", step) && step.response.success;
     });
     node.waitForStatus("a step", [](const Status& s) { return s.step_index >= 1; });
     child.signal(SIGINT);

@@ -24,7 +24,6 @@ bool isFirst(const std_msgs::Header& header) { return header.stamp == kFirstTick
 
 TEST(Rewind, EverythingIsSaidAgain) {
   NodeUnderTest node;
-  node.stepTo(5, 0);
   MessageLog<rosgraph_msgs::Clock> clock("/clock");
   MessageLog<tf2_msgs::TFMessage> moving("/tf"), fixed("/tf_static");
   MessageLog<std_msgs::String> scenario("/sensory_growth/scenario"), protocol("/sensory_growth/protocol"),
@@ -33,12 +32,18 @@ TEST(Rewind, EverythingIsSaidAgain) {
   MessageLog<Status> status("/sensory_growth/status");
   MessageLog<OrganState> states("/sensory_growth/organs/shoot/state");
   MessageLog<visualization_msgs::MarkerArray> markers("/sensory_growth/markers");
+  std::uint64_t step = 0;
+  moving.connect([&] {
+    node.stepTo(step + 1, step);
+    ++step;
+  });
   for (MessageLog<std_msgs::String>* text : {&scenario, &protocol, &parameters}) text->waitForCount(1);
   fixed.waitForCount(1);
   stimuli.waitForCount(1);
   states.waitForCount(1);
   markers.waitForCount(1);
-  clock.waitFor("now", [](const auto& message) { return message.clock.toSec() == 6.0; });
+  clock.waitFor("now",
+                [step](const auto& message) { return message.clock.toSec() == 1.0 + static_cast<double>(step); });
 
   const auto reset = node.command("reset");
   ASSERT_TRUE(reset.success) << reset.message;
