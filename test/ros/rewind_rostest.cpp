@@ -33,10 +33,12 @@ TEST(Rewind, EverythingIsSaidAgain) {
   MessageLog<OrganState> states("/sensory_growth/organs/shoot/state");
   MessageLog<visualization_msgs::MarkerArray> markers("/sensory_growth/markers");
   std::uint64_t step = 0;
-  moving.connect([&] {
+  const auto take_a_step = [&] {
     node.stepTo(step + 1, step);
     ++step;
-  });
+  };
+  take_a_step();
+  moving.connect(take_a_step);
   for (MessageLog<std_msgs::String>* text : {&scenario, &protocol, &parameters}) text->waitForCount(1);
   fixed.waitForCount(1);
   stimuli.waitForCount(1);
@@ -45,6 +47,7 @@ TEST(Rewind, EverythingIsSaidAgain) {
   clock.waitFor("now",
                 [step](const auto& message) { return message.clock.toSec() == 1.0 + static_cast<double>(step); });
 
+  moving.forget();
   const auto reset = node.command("reset");
   ASSERT_TRUE(reset.success) << reset.message;
   EXPECT_EQ(reset.stamp, kFirstTick);
