@@ -32,8 +32,8 @@ BatchRun::Reporter::Reporter(const node::Parameters& parameters, const node::Sou
 
 void BatchRun::Reporter::publish(const Topic&, const node::Message& message) { watch_(message); }
 
-BatchRun::BatchRun(const node::Parameters& parameters, node::LoadedScenario loaded, Watch watch, std::uint32_t epoch,
-                   const Origin& origin)
+BatchRun::BatchRun(const node::Parameters& parameters, const node::LoadedScenario& loaded, Watch watch,
+                   std::uint32_t epoch, const Origin& origin)
     : threads_(parameters.threads),
       reporter_(parameters, loaded.sources, counters_, std::move(watch)),
       run_(

@@ -45,14 +45,14 @@ std::uint64_t stepsOf(const RecordedRun& recorded) {
   return steps;
 }
 
-Replay::Replay(const RecordedRun& recorded, const node::Parameters& parameters, node::LoadedScenario loaded,
+Replay::Replay(const RecordedRun& recorded, const node::Parameters& parameters, const node::LoadedScenario& loaded,
                BatchRun::Watch watch)
     : recorded_(recorded),
       parameters_(parameters),
       watch_(std::move(watch)),
       run_(
-          parameters, std::move(loaded), [this](const node::Message& message) { listen(message); },
-          recorded.epochs.begin()->first, recorded.epochs.begin()->second.origin) {}
+          parameters, loaded, [this](const node::Message& message) { listen(message); }, recorded.epochs.begin()->first,
+          recorded.epochs.begin()->second.origin) {}
 
 ReplayReport Replay::run(const Go& go) {
   ReplayReport report;
@@ -150,7 +150,7 @@ ExitCode replay(const ReplayOptions& options, const Console& console) {
 
   const std::uint32_t last_epoch = recorded.epochs.rbegin()->first;
   FrameFiles frames(options.frames, loaded.sources.organs, last_epoch);
-  Replay replay(recorded, parameters, std::move(loaded), [&frames](const node::Message& m) { frames.take(m); });
+  Replay replay(recorded, parameters, loaded, [&frames](const node::Message& m) { frames.take(m); });
 
   ReplayReport report;
   Summary summary;

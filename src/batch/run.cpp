@@ -96,7 +96,7 @@ ExitCode run(const RunOptions& options, const Console& console) {
   const std::uint64_t steps = stepsIn(loaded.scenario.duration, loaded.scenario.stepping.step);
   FrameFiles frames(options.frames, loaded.sources.organs);
   BatchRun batch(
-      parameters, std::move(loaded), [&frames](const node::Message& message) { frames.take(message); }, 0, origin);
+      parameters, loaded, [&frames](const node::Message& message) { frames.take(message); }, 0, origin);
   const std::uint64_t first_step = batch.snapshot()->step_index;
 
   Summary summary;

@@ -134,7 +134,7 @@ struct Weigh {
   }
 };
 
-struct FindFault {
+struct FindKernelFault {
   using MaybeFault = std::optional<Fault>;
 
   MaybeFault operator()(const Delay& kernel) const { return badDelay(kernel.time); }
@@ -181,7 +181,7 @@ struct FindFault {
 
 LinearOde exponentialKernel(double time_constant) { return {0.0, time_constant, {1.0}}; }
 
-std::optional<Fault> findFault(const MemoryKernel& kernel) { return std::visit(FindFault{}, kernel); }
+std::optional<Fault> findFault(const MemoryKernel& kernel) { return std::visit(FindKernelFault{}, kernel); }
 
 double lookBack(const MemoryKernel& kernel) {
   if (const auto* sampled = std::get_if<SampledKernel>(&kernel)) return sampled->times.back();

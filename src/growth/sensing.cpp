@@ -53,7 +53,7 @@ bool areFinite(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
 }
 
-struct FindFault {
+struct FindSpreadFault {
   std::optional<Fault> operator()(const FadingSpread& spread) const {
     if (spread.length > 0.0 && std::isfinite(spread.length)) return std::nullopt;
     return Fault{"length", "must be > 0 m"};
@@ -163,7 +163,7 @@ std::optional<Fault> findFault(const Receivers& receivers) {
   return std::nullopt;
 }
 
-std::optional<Fault> findFault(const Spread& spread) { return std::visit(FindFault{}, spread); }
+std::optional<Fault> findFault(const Spread& spread) { return std::visit(FindSpreadFault{}, spread); }
 
 void weigh(const Receivers& receivers, const rod::Rod& rod, std::vector<double>& weights) {
   weights.assign(rod.size(), 1.0);

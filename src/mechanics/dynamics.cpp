@@ -9,6 +9,7 @@
 
 #include "rod_motion.h"
 #include "sensory_growth/mechanics/static_equilibrium.h"
+#include "thresholds.h"
 
 namespace sensory_growth::mechanics {
 namespace {
@@ -18,7 +19,6 @@ constexpr double kRestingPeriods = 0.5;    // for so long residual and kinetic e
 constexpr double kChecksPerPeriod = 50.0;  // of the residual rule
 constexpr double kCarried = 0.99;          // share of the loads from which the rest need not come on smoothly
 constexpr int kMostSteps = 1000000000;     // of one call; days of computing
-constexpr double kUnstable = 1e-9;         // of B / L, as in the statics
 
 /// Rises from 0 to 1 with x, with horizontal ends.
 double smoothStep(double x) { return x < 1.0 ? x * x * (3.0 - 2.0 * x) : 1.0; }

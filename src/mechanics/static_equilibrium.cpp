@@ -10,6 +10,7 @@
 #include "reduced_energy.h"
 #include "sensory_growth/mechanics/rest_shape.h"
 #include "sensory_growth/mechanics/supported_equilibrium.h"
+#include "thresholds.h"
 
 namespace sensory_growth::mechanics {
 namespace {
@@ -17,9 +18,6 @@ namespace {
 using rod::Vector3;
 using Evaluation = ReducedEnergy::Evaluation;
 
-constexpr double kArmijo = 1e-4;
-constexpr double kUnstable = 1e-9;        // of B / L: eigenvalues below minus this are unstable, model.md 12.4
-constexpr double kUnresolvable = 3.0;     // rad: near pi the rotation vector of a bend jumps
 constexpr double kClose = 0.1;            // rad: a first step up to this is taken without a look where it leads
 constexpr double kCloseToBalance = 1e-2;  // residual
 constexpr int kIterationsToCouple = 40;

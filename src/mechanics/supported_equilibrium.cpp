@@ -8,18 +8,16 @@
 #include "chain_cholesky.h"
 #include "least_energy.h"
 #include "supported_energy.h"
+#include "thresholds.h"
 
 namespace sensory_growth::mechanics {
 namespace {
 
 using rod::Vector3;
 
-constexpr double kArmijo = 1e-4;
-constexpr double kUnstable = 1e-9;  // of B / L: eigenvalues below minus this are unstable, model.md 12.4
 constexpr double kEigenvalueTolerance = 1e-6;
 constexpr double kTwist = 0.1;  // of what an eigenvector search starts from, or it would not find a mode of twist
 constexpr double kReportTolerance = 1e-3;  // on the lowest eigenvalue of a rod whose factor has shown it to be stable
-constexpr double kUnresolvable = 3.0;      // rad: near pi the rotation vector of a bend jumps
 
 constexpr double kFar = 1e-2;             // of the length: beyond this rigid surroundings start out soft
 constexpr double kSoft = 1e-2;            // of the penalty, for that

@@ -11,14 +11,14 @@
 namespace sensory_growth::node {
 namespace {
 
-constexpr std::uint32_t kQueue = 10;
+constexpr std::uint32_t kClockQueue = 10;
 
 }  // namespace
 
 ClockListener::ClockListener(ros::NodeHandle node, std::function<void(const ros::Time&)> heard)
     : heard_(std::move(heard)), warnings_(std::chrono::seconds(1)), spinner_(1, &queue_) {
   ros::SubscribeOptions options;
-  options.init<rosgraph_msgs::Clock>(names::kClock, kQueue,
+  options.init<rosgraph_msgs::Clock>(names::kClock, kClockQueue,
                                      [this](const rosgraph_msgs::Clock::ConstPtr& message) { hear(message->clock); });
   options.callback_queue = &queue_;
   options.transport_hints = ros::TransportHints().tcpNoDelay();

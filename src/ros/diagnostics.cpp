@@ -111,11 +111,11 @@ void reportClock(ClockMode mode, const std::vector<std::string>& others, Diagnos
   status.summary(DiagnosticStatus::ERROR, "several nodes publish /clock");
 }
 
-Diagnostics::Diagnostics(ros::NodeHandle node, ros::NodeHandle private_node, Sources sources)
+Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, Sources sources)
     : sources_(std::move(sources)),
       snapshot_(sources_.snapshot()),
       clock_warnings_(std::chrono::seconds(10)),
-      updater_(std::move(node), std::move(private_node)) {
+      updater_(node, private_node) {
   updater_.setHardwareID("none");
   updater_.add("simulation",
                [this](DiagnosticStatusWrapper& status) { reportLoop(sources_.loop(), *snapshot_, status); });

@@ -20,7 +20,6 @@ using visualization_msgs::MarkerArray;
 
 constexpr std::size_t kSides = 10;       // of the tube
 constexpr std::size_t kMostRings = 129;  // bounds the size of a message, whatever the number of elements
-constexpr double kPi = 3.14159265358979323846;
 
 std_msgs::ColorRGBA color(float r, float g, float b, float a = 1.0F) {
   std_msgs::ColorRGBA c;
@@ -102,7 +101,7 @@ void addTriangle(Marker& mesh, const std::array<geometry_msgs::Point, 3>& points
 std::array<geometry_msgs::Point, kSides> corners(const Ring& ring) {
   std::array<geometry_msgs::Point, kSides> points;
   for (std::size_t k = 0; k < kSides; ++k) {
-    const double angle = 2.0 * kPi * static_cast<double>(k) / kSides;
+    const double angle = 2.0 * M_PI * static_cast<double>(k) / kSides;
     const rod::Vector3 spoke(ring.radius * std::cos(angle), ring.radius * std::sin(angle), 0.0);
     points[k] = toPoint(ring.pose.position + ring.pose.frame * spoke);
   }

@@ -95,7 +95,7 @@ enum class When { at_start, while_running };
 
 class Reader {
  public:
-  Reader(XmlRpc::XmlRpcValue tree, When when) : tree_(std::move(tree)), when_(when) {}
+  Reader(const XmlRpc::XmlRpcValue& tree, When when) : tree_(tree), when_(when) {}
 
   void text(const std::string& key, std::string& value, Need need = Need::optional) {
     if (!find(key, need)) return;
@@ -278,10 +278,10 @@ ParameterReading read(const Parameters& parameters, Reader reader) {
 
 }  // namespace
 
-ParameterReading readParameters(XmlRpc::XmlRpcValue tree) { return read({}, Reader(std::move(tree), When::at_start)); }
+ParameterReading readParameters(const XmlRpc::XmlRpcValue& tree) { return read({}, Reader(tree, When::at_start)); }
 
-ParameterReading changeParameters(const Parameters& parameters, XmlRpc::XmlRpcValue changes) {
-  ParameterReading reading = read(parameters, Reader(std::move(changes), When::while_running));
+ParameterReading changeParameters(const Parameters& parameters, const XmlRpc::XmlRpcValue& changes) {
+  ParameterReading reading = read(parameters, Reader(changes, When::while_running));
   if (!reading.problems.empty()) reading.parameters = parameters;
   return reading;
 }

@@ -10,19 +10,19 @@
 namespace sensory_growth::node {
 namespace {
 
-constexpr std::uint32_t kQueue = 100;
+constexpr std::uint32_t kPublisherQueue = 100;
 
 }  // namespace
 
 Publishers::Publishers(const Parameters& parameters, const Sources& sources, const StimulusCounters& counters,
-                       ros::NodeHandle private_node)
+                       const ros::NodeHandle& private_node)
     : Reporter(parameters, sources, counters,
                [private_node](const std::string& name) { return private_node.resolveName(name); }),
-      node_(std::move(private_node)),
+      node_(private_node),
       refusals_(std::chrono::seconds(1)) {
-  advertise<Status>(topics_.status, kQueue);
-  advertise<Stimuli>(topics_.stimuli, kQueue);
-  advertise<AppliedCommand>(topics_.applied, kQueue);
+  advertise<Status>(topics_.status, kPublisherQueue);
+  advertise<Stimuli>(topics_.stimuli, kPublisherQueue);
+  advertise<AppliedCommand>(topics_.applied, kPublisherQueue);
   advertise<Checkpoint>(topics_.checkpoint, 1);
   advertise<std_msgs::String>(topics_.scenario, 1);
   advertise<std_msgs::String>(topics_.protocol, 1);
@@ -54,7 +54,7 @@ void Publishers::showMarkers(const SnapshotPtr& snapshot) {
   shown_settings_ = settings;
 }
 
-void Publishers::open(const Topic& topic) { advertise<OrganState>(topic, kQueue); }
+void Publishers::open(const Topic& topic) { advertise<OrganState>(topic, kPublisherQueue); }
 
 void Publishers::close(const Topic& topic) { publishers_.erase(topic.name); }
 

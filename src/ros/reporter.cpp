@@ -37,7 +37,7 @@ std::uint8_t toConstant(Mode mode) {
   return Status::UNKNOWN;
 }
 
-constexpr std::size_t kLongestHistory = 4 * 1024 * 1024;  // [byte]
+constexpr std::size_t kLongestHistory = std::size_t{4} << 20U;  // [byte]
 
 }  // namespace
 

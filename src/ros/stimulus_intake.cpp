@@ -16,7 +16,7 @@ using simulation::StimulusKind;
 using simulation::StimulusOperation;
 using std::chrono::steady_clock;
 
-constexpr std::uint32_t kQueue = 100;
+constexpr std::uint32_t kStimulusQueue = 100;
 constexpr std::size_t kMostWaiting = 64;
 
 std::string describe(const StimulusCommand& command) {
@@ -34,7 +34,7 @@ StimulusIntake::StimulusIntake(ros::NodeHandle node, ros::NodeHandle private_nod
         [this, convert](const boost::shared_ptr<const Message>& received) {
           receive(convert(*received), received->header);
         };
-    return from.subscribe<Message>(topic, kQueue, callback);
+    return from.subscribe<Message>(topic, kStimulusQueue, callback);
   };
   const auto as_it_says = [](const auto& message) { return toCommand(message); };
   const auto one_more = [this](const auto& click) { return toCommand(click, ++clicks_); };

@@ -8,11 +8,6 @@ namespace {
 
 using rod::Vector3;
 
-constexpr auto kRequired = Presence::required;
-constexpr auto kOptional = Presence::optional;
-
-constexpr double kPi = 3.14159265358979323846;
-
 bool isInTime(RelaxationMethod relaxation) {
   return relaxation == RelaxationMethod::dynamics || relaxation == RelaxationMethod::continuous;
 }
@@ -24,7 +19,7 @@ rod::Quaternion frameAlong(const Vector3& d3, double roll) {
   if (axis.norm() > 0.0) {
     tilt = Eigen::AngleAxisd(std::atan2(axis.norm(), d3.z()), axis.stableNormalized());
   } else if (d3.z() < 0.0) {
-    tilt = Eigen::AngleAxisd(kPi, Vector3::UnitX());
+    tilt = Eigen::AngleAxisd(M_PI, Vector3::UnitX());
   }
   return (tilt * Eigen::AngleAxisd(roll, Vector3::UnitZ())).normalized();
 }

@@ -12,9 +12,6 @@
 namespace sensory_growth::simulation {
 namespace {
 
-constexpr auto kRequired = Presence::required;
-constexpr auto kOptional = Presence::optional;
-
 template <typename Value>
 Options<Value> named(std::initializer_list<Value> values) {
   Options<Value> options;

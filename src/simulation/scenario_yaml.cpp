@@ -19,11 +19,6 @@ namespace {
 
 using rod::Vector3;
 
-constexpr auto kRequired = Presence::required;
-constexpr auto kOptional = Presence::optional;
-
-constexpr double kPi = 3.14159265358979323846;
-
 void readLimits(YamlReader& in, StepLimits& limits) {
   const Range limit = above(0).orInfinity();
   limits.tip_advance = in.number("tip_advance", limit, limits.tip_advance);
@@ -45,9 +40,9 @@ void readStatics(YamlReader& in, mechanics::RelaxationSettings& settings) {
   settings.tolerance = in.number("tolerance", above(0).below(1), settings.tolerance);
   settings.max_iterations = in.count("max_iterations", 1, 1000000, settings.max_iterations);
   settings.max_branch_switches = in.count("max_branch_switches", 0, 1000, settings.max_branch_switches);
-  settings.max_rotation = in.quantity("max_rotation", dimension::angle, above(0).upTo(kPi), settings.max_rotation);
+  settings.max_rotation = in.quantity("max_rotation", dimension::angle, above(0).upTo(M_PI), settings.max_rotation);
   settings.max_bend_angle =
-      in.quantity("max_bend_angle", dimension::angle, above(0).below(kPi), settings.max_bend_angle);
+      in.quantity("max_bend_angle", dimension::angle, above(0).below(M_PI), settings.max_bend_angle);
 }
 
 void readDynamics(YamlReader& in, mechanics::DynamicsSettings& settings) {

@@ -6,9 +6,6 @@
 namespace sensory_growth::simulation {
 namespace {
 
-constexpr auto kRequired = Presence::required;
-constexpr auto kOptional = Presence::optional;
-
 double readLength(YamlReader& in, const std::string& key = "length") {
   return in.quantity(key, dimension::length, above(0));
 }
@@ -19,11 +16,11 @@ growth::DistanceLaw readInversePower(YamlReader& in) {
   return growth::InversePowerPull{readLength(in), in.number("exponent", atLeast(0))};
 }
 
-growth::DistanceLaw readExponential(YamlReader& in) { return growth::ExponentialPull{readLength(in)}; }
+growth::DistanceLaw readExponentialPull(YamlReader& in) { return growth::ExponentialPull{readLength(in)}; }
 
 growth::DistanceLaw readGaussian(YamlReader& in) { return growth::GaussianPull{readLength(in)}; }
 
-growth::DistanceLaw readSampled(YamlReader& in) {
+growth::DistanceLaw readSampledPull(YamlReader& in) {
   return growth::SampledPull{in.quantities("distances", dimension::length, atLeast(0)),
                              in.numbers("factors", anyNumber)};
 }
@@ -32,9 +29,9 @@ growth::DistanceLaw readDistanceLaw(YamlReader& in) {
   using ReadLaw = growth::DistanceLaw (*)(YamlReader&);
   const auto read = in.choice<ReadLaw>("law", {{"constant", readConstant},
                                                {"inverse_power", readInversePower},
-                                               {"exponential", readExponential},
+                                               {"exponential", readExponentialPull},
                                                {"gaussian", readGaussian},
-                                               {"sampled", readSampled}});
+                                               {"sampled", readSampledPull}});
   if (read) return (*read)(in);
   in.ignoreOtherKeys();
   return growth::ConstantPull{};

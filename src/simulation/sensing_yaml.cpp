@@ -8,9 +8,6 @@ namespace {
 
 using growth::Coordinate;
 
-constexpr auto kRequired = Presence::required;
-constexpr auto kOptional = Presence::optional;
-
 /// Notes the fault of what was read without other problems.
 void report(YamlReader& in, const std::optional<growth::Fault>& fault) {
   if (fault && in.faultless()) in.addProblem(fault->field, fault->reason);
@@ -51,7 +48,7 @@ double readTimeConstant(YamlReader& in) {
   return in.quantity("time_constant", dimension::time, atLeast(growth::kShortestTimeConstant));
 }
 
-growth::MemoryKernel readExponential(YamlReader& in) { return growth::exponentialKernel(readTimeConstant(in)); }
+growth::MemoryKernel readExponentialKernel(YamlReader& in) { return growth::exponentialKernel(readTimeConstant(in)); }
 
 growth::MemoryKernel readLinearOde(YamlReader& in) {
   return growth::LinearOde{in.quantity("delay", dimension::time, atLeast(0)), readTimeConstant(in),
@@ -69,7 +66,7 @@ void readMemory(YamlReader& in, growth::Route& route) {
   if (before_start) route.before_start = *before_start;
   using ReadKernel = growth::MemoryKernel (*)(YamlReader&);
   const auto read = in.choice<ReadKernel>("kernel", {{"delay", readDelay},
-                                                     {"exponential", readExponential},
+                                                     {"exponential", readExponentialKernel},
                                                      {"linear_ode", readLinearOde},
                                                      {"sampled", readSampledKernel}});
   if (!read) return in.ignoreOtherKeys();

@@ -24,7 +24,7 @@ growth::Profile readApicalGaussian(YamlReader& in) {
   return growth::ApicalGaussianProfile{readRate(in), readZoneLength(in)};
 }
 
-growth::Profile readSampled(YamlReader& in) {
+growth::Profile readSampledProfile(YamlReader& in) {
   const std::vector<double> distances = in.quantities("distances", dimension::length, atLeast(0));
   const std::vector<double> rates = in.quantities("rates", dimension::rate, atLeast(0));
   const auto is_read = [](const std::vector<double>& values) {
@@ -82,7 +82,7 @@ void readGrowth(YamlReader& in, RelaxationMethod relaxation, OrganScenario& orga
       in.choice<TwistTransport>("twist_transport", {{"angle", TwistTransport::angle}, {"rate", TwistTransport::rate}},
                                 organ.twist_transport)
           .value_or(organ.twist_transport);
-  in.section("stress_coupling", Presence::optional,
+  in.section("stress_coupling", kOptional,
              [&](YamlReader& coupling) { organ.stress_coupling = readStressCoupling(coupling); });
   if (organ.stress_coupling && relaxation == RelaxationMethod::kinematics) {
     in.addProblem("stress_coupling", "has no effect with kinematic relaxation, which knows no stress; leave it out");
@@ -95,7 +95,7 @@ void readGrowth(YamlReader& in, RelaxationMethod relaxation, OrganScenario& orga
                                                        {"uniform", readUniform},
                                                        {"apical_flat", readApicalFlat},
                                                        {"apical_gaussian", readApicalGaussian},
-                                                       {"sampled", readSampled}});
+                                                       {"sampled", readSampledProfile}});
   if (!read) return in.ignoreOtherKeys();
   organ.profile = (*read)(in);
 }
@@ -105,10 +105,10 @@ growth::Aging readAging(YamlReader& in, RelaxationMethod relaxation) {
   growth::Aging aging;
   aging.clock = in.choice<AgingClock>("clock", {{"maturation", AgingClock::maturation}, {"time", AgingClock::time}})
                     .value_or(aging.clock);
-  in.section("stiffening", Presence::optional, [&](YamlReader& stiffening) {
+  in.section("stiffening", kOptional, [&](YamlReader& stiffening) {
     aging.young_modulus = readMaturation(stiffening, "mature_modulus", dimension::modulus);
   });
-  in.section("thickening", Presence::optional, [&](YamlReader& thickening) {
+  in.section("thickening", kOptional, [&](YamlReader& thickening) {
     aging.radius = readMaturation(thickening, "mature_radius", dimension::length);
   });
   if (!in.has("stiffening") && !in.has("thickening")) {

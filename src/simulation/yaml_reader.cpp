@@ -25,7 +25,7 @@ std::string quote(const std::string& text) {
   return "'" + (text.size() > kLongestQuote ? text.substr(0, kLongestQuote) + "..." : text) + "'";
 }
 
-std::string describe(const YAML::Node& node) {
+std::string describeNode(const YAML::Node& node) {
   if (node.IsScalar()) return "is " + quote(node.Scalar());
   if (node.IsSequence()) return "is a sequence";
   if (node.IsMap()) return "is a mapping";
@@ -51,7 +51,7 @@ bool isIdentifier(const std::string& text) {
 
 template <typename Value>
 Presence presence(const std::optional<Value>& fallback) {
-  return fallback ? Presence::optional : Presence::required;
+  return fallback ? kOptional : kRequired;
 }
 
 double inRange(double value, const Range& range, const char* unit) {
@@ -80,7 +80,7 @@ YamlReader::YamlReader(const YAML::Node& mapping, std::string path, std::vector<
     const YAML::Node& key = item.first;
     const int line = lineOf(key, line_);
     if (!key.IsScalar()) {
-      problems_.push_back({path_, line, "has a key that " + simulation::describe(key) + "; keys are plain words"});
+      problems_.push_back({path_, line, "has a key that " + describeNode(key) + "; keys are plain words"});
     } else if (const Entry* first = entry(key.Scalar())) {
       problems_.push_back({pathOf(first->key), line, "is given twice, first on line " + std::to_string(first->line)});
     } else {
@@ -89,13 +89,13 @@ YamlReader::YamlReader(const YAML::Node& mapping, std::string path, std::vector<
   }
 }
 
-std::string YamlReader::text(const std::string& key, std::optional<std::string> fallback) {
+std::string YamlReader::text(const std::string& key, const std::optional<std::string>& fallback) {
   return scalar(key, presence(fallback), "give a text").value_or(fallback.value_or(""));
 }
 
 std::string YamlReader::identifier(const std::string& key) {
   const std::string request = "give a letter followed by letters, digits and '_'";
-  const std::optional<std::string> text = scalar(key, Presence::required, request);
+  const std::optional<std::string> text = scalar(key, kRequired, request);
   if (!text) return "";
   if (!isIdentifier(*text)) addProblem(key, quote(*text) + " is not a valid name; " + request);
   return *text;
@@ -178,7 +178,7 @@ std::vector<std::vector<double>> YamlReader::matrix(const std::string& key, cons
       rows.push_back(components(row, row_key, example(dimension),
                                 [&](const std::string& text) { return parseQuantity(text, dimension); }));
     } else {
-      problems_.push_back({pathOf(row_key), lineOf(row, line(key)), simulation::describe(row) + "; " + request});
+      problems_.push_back({pathOf(row_key), lineOf(row, line(key)), describeNode(row) + "; " + request});
     }
   }
   return rows;
@@ -205,8 +205,8 @@ void YamlReader::list(const std::string& key, Presence presence, const Body& bod
   const std::string request = "give a sequence of mappings";
   const Entry* list = find(key, presence, request);
   if (!list) return;
-  if (!list->value.IsSequence()) return addProblem(key, simulation::describe(list->value) + "; " + request);
-  if (presence == Presence::required && list->value.size() == 0) addProblem(key, "is empty; give one entry at least");
+  if (!list->value.IsSequence()) return addProblem(key, describeNode(list->value) + "; " + request);
+  if (presence == kRequired && list->value.size() == 0) addProblem(key, "is empty; give one entry at least");
   for (std::size_t i = 0; i < list->value.size(); ++i) {
     const YAML::Node item = list->value[i];
     readMapping(item, key + "[" + std::to_string(i) + "]", lineOf(item, line(key)), body);
@@ -242,7 +242,7 @@ void YamlReader::reportUnknownKeys() {
 
 std::optional<std::size_t> YamlReader::indexOfChoice(const std::string& key, const std::vector<std::string>& names) {
   const std::string request = "give " + join(names, " or ");
-  const std::optional<std::string> text = scalar(key, Presence::required, request);
+  const std::optional<std::string> text = scalar(key, kRequired, request);
   if (!text) return std::nullopt;
   const auto found = std::find(names.begin(), names.end(), *text);
   if (found != names.end()) return found - names.begin();
@@ -264,7 +264,7 @@ std::vector<std::size_t> YamlReader::indicesOfChoices(const std::string& key, co
       indices.push_back(index);
     } else {
       problems_.push_back({pathOf(key + "[" + std::to_string(i) + "]"), lineOf(item, line(key)),
-                           simulation::describe(item) + (is_new ? "" : " again") + "; " + request});
+                           describeNode(item) + (is_new ? "" : " again") + "; " + request});
     }
   }
   return indices;
@@ -286,7 +286,7 @@ const YamlReader::Entry* YamlReader::entry(const std::string& key) const {
 }
 
 const YamlReader::Entry* YamlReader::find(const std::string& key, Presence presence, const std::string& request) {
-  if (!has(key) && presence == Presence::required) addProblem(key, "is missing; " + request);
+  if (!has(key) && presence == kRequired) addProblem(key, "is missing; " + request);
   return entry(key);
 }
 
@@ -294,7 +294,7 @@ std::optional<std::string> YamlReader::scalar(const std::string& key, Presence p
   const Entry* e = find(key, presence, request);
   if (!e) return std::nullopt;
   if (e->value.IsScalar()) return e->value.Scalar();
-  addProblem(key, simulation::describe(e->value) + "; " + request);
+  addProblem(key, describeNode(e->value) + "; " + request);
   return std::nullopt;
 }
 
@@ -309,10 +309,10 @@ double YamlReader::convert(const std::string& key, int line, const std::string& 
 
 /// The entry of a key whose value is a sequence and not empty.
 const YamlReader::Entry* YamlReader::findSequence(const std::string& key, const std::string& request) {
-  const Entry* e = find(key, Presence::required, request);
+  const Entry* e = find(key, kRequired, request);
   if (!e) return nullptr;
   if (e->value.IsSequence() && e->value.size() > 0) return e;
-  addProblem(key, (e->value.IsSequence() ? std::string("is empty") : simulation::describe(e->value)) + "; " + request);
+  addProblem(key, (e->value.IsSequence() ? std::string("is empty") : describeNode(e->value)) + "; " + request);
   return nullptr;
 }
 
@@ -332,10 +332,10 @@ std::vector<double> YamlReader::sequence(const std::string& key, const std::stri
 rod::Vector3 YamlReader::triple(const std::string& key, const std::string& component_request, const Parse& parse) {
   const std::string request = "give a sequence of three, each " + component_request;
   rod::Vector3 value = rod::Vector3::Constant(kNan);
-  const Entry* e = find(key, Presence::required, request);
+  const Entry* e = find(key, kRequired, request);
   if (!e) return value;
   if (!e->value.IsSequence()) {
-    addProblem(key, simulation::describe(e->value) + "; " + request);
+    addProblem(key, describeNode(e->value) + "; " + request);
   } else if (e->value.size() != 3) {
     addProblem(key, "has " + std::to_string(e->value.size()) + " components; " + request);
   } else {
@@ -353,13 +353,13 @@ double YamlReader::component(const YAML::Node& sequence, std::size_t i, const st
   const std::string item_key = key + "[" + std::to_string(i) + "]";
   const int item_line = lineOf(item, line(key));
   if (item.IsScalar()) return convert(item_key, item_line, item.Scalar(), parse);
-  problems_.push_back({pathOf(item_key), item_line, simulation::describe(item) + "; give " + request});
+  problems_.push_back({pathOf(item_key), item_line, describeNode(item) + "; give " + request});
   return kNan;
 }
 
 void YamlReader::readMapping(const YAML::Node& node, const std::string& key, int line, const Body& body) {
   if (!node.IsMap()) {
-    problems_.push_back({pathOf(key), line, simulation::describe(node) + "; give a mapping of keys to values"});
+    problems_.push_back({pathOf(key), line, describeNode(node) + "; give a mapping of keys to values"});
     return;
   }
   YamlReader reader(node, pathOf(key), problems_);
@@ -384,7 +384,7 @@ void readYaml(const std::string& text, std::vector<Problem>& problems, const Yam
   } else if (documents.size() > 1) {
     problems.push_back({"", lineOf(documents[1].Mark(), 0), "a second document begins here; give one"});
   } else if (!documents[0].IsMap()) {
-    problems.push_back({"", lineOf(documents[0], 0), simulation::describe(documents[0]) + "; give a mapping"});
+    problems.push_back({"", lineOf(documents[0], 0), describeNode(documents[0]) + "; give a mapping"});
   } else {
     YamlReader reader(documents[0], "", problems);
     body(reader);

@@ -37,7 +37,7 @@ class ReplayTest : public InFolder {
     std::vector<std::string> problems;
     node::LoadedScenario loaded = node::loadScenario(parameters, "/sensory_growth", problems);
     ASSERT_TRUE(problems.empty());
-    BatchRun run(parameters, std::move(loaded), [](const node::Message&) {});
+    BatchRun run(parameters, loaded, [](const node::Message&) {});
     takeSteps(run, 2);  // forgotten by the reset
     run.reset();
     takeSteps(run, 4);

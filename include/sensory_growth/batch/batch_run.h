@@ -28,7 +28,7 @@ class BatchRun {
 
   /// Shows the first state; `epoch` counts the resets and loads before it. Opens the bag that the parameters name, if
   /// ~record. Throws BadInput if the bag or the simulation cannot be begun.
-  BatchRun(const node::Parameters& parameters, node::LoadedScenario loaded, Watch watch, std::uint32_t epoch = 0,
+  BatchRun(const node::Parameters& parameters, const node::LoadedScenario& loaded, Watch watch, std::uint32_t epoch = 0,
            const Origin& origin = std::nullopt);
 
   /// Nothing, or why the step failed; then the run is over.

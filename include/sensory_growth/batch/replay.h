@@ -35,7 +35,7 @@ class Replay {
   using Go = std::function<bool(std::uint64_t steps, const node::Snapshot& snapshot)>;
 
   /// `recorded` must outlive the replay. Throws as BatchRun does.
-  Replay(const RecordedRun& recorded, const node::Parameters& parameters, node::LoadedScenario loaded,
+  Replay(const RecordedRun& recorded, const node::Parameters& parameters, const node::LoadedScenario& loaded,
          BatchRun::Watch watch);
 
   ReplayReport run(const Go& go);

@@ -50,7 +50,7 @@ class Diagnostics {
     ClockMode clock_mode = ClockMode::publish;
   };
 
-  Diagnostics(ros::NodeHandle node, ros::NodeHandle private_node, Sources sources);
+  Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, Sources sources);
 
   /// Publishes now; called by a wall timer, because diagnostic_updater itself would wait for ROS time (ros.md 52).
   void update();

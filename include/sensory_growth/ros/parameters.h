@@ -81,10 +81,10 @@ struct ParameterReading {
 ParameterReading loadParameters(const ros::NodeHandle& node);
 
 /// The same from a tree, as the parameter server keeps it.
-ParameterReading readParameters(XmlRpc::XmlRpcValue tree);
+ParameterReading readParameters(const XmlRpc::XmlRpcValue& tree);
 
 /// The parameters with those of the tree changed while the node runs, or as they are if there are problems.
-ParameterReading changeParameters(const Parameters& parameters, XmlRpc::XmlRpcValue changes);
+ParameterReading changeParameters(const Parameters& parameters, const XmlRpc::XmlRpcValue& changes);
 
 /// A parameter that may change while the node runs. The values are all bool, double or text.
 struct LiveParameter {

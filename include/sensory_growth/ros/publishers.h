@@ -21,7 +21,7 @@ class Publishers : public Reporter {
  public:
   /// `counters` must outlive the publishers.
   Publishers(const Parameters& parameters, const Sources& sources, const StimulusCounters& counters,
-             ros::NodeHandle private_node);
+             const ros::NodeHandle& private_node);
 
   void onCommand(const simulation::AppliedCommand& command, const Snapshot& snapshot) override;
 

@@ -21,6 +21,8 @@
 namespace sensory_growth::simulation {
 
 enum class Presence { required, optional };
+inline constexpr auto kRequired = Presence::required;
+inline constexpr auto kOptional = Presence::optional;
 
 /// Named values that a key, or a choice of keys, stands for.
 template <typename Value>
@@ -36,7 +38,7 @@ class YamlReader {
 
   YamlReader(const YAML::Node& mapping, std::string path, std::vector<Problem>& problems);
 
-  std::string text(const std::string& key, std::optional<std::string> fallback = {});
+  std::string text(const std::string& key, const std::optional<std::string>& fallback = {});
   std::string identifier(const std::string& key);  ///< a letter, then letters, digits, '_'
 
   /// The same, refused if it is among those `given` before.
