@@ -15,6 +15,8 @@ import functools
 import numpy as np
 from scipy.optimize import brentq
 
+from comparison.shoot import GREENHILL
+
 POINTS = 40
 
 
@@ -28,8 +30,8 @@ def _differentiation(points):
 
 
 def spectrum(law, G, S, points=POINTS):
-    """All rates [1 / time of straightening], fastest growing first. Those that crowd at the rate of a point of tissue
-    by itself (-1, or 0 under relaxation) belong to the continuous spectrum and are no modes of the organ."""
+    """All rates [1 / time of straightening], fastest growing first. They accumulate at the rate of a point of tissue by
+    itself (-1, or 0 under relaxation): what is beside it is compact. Those next to it are not resolved."""
     s, D = _differentiation(points)
     backwards = -D
     backwards[-1] = 0.0
@@ -43,7 +45,7 @@ def spectrum(law, G, S, points=POINTS):
 
 
 def leading_mode(G, S, points=POINTS):
-    """The fastest growing rate under strain relaxation that is no part of the continuum at zero, or None."""
+    """The fastest growing rate under strain relaxation that is not one of those that accumulate at zero, or None."""
     rates = spectrum("relaxation", G, S, points)
     modes = rates[(np.abs(rates) > 0.06 * min(1.0, G)) & (rates.imag >= 0.0)]
     return modes[0] if len(modes) else None
@@ -68,12 +70,8 @@ def onset(G):
 
 
 def last_onset():
-    """G up to which there is an onset below Greenhill's load, to a hundredth."""
-    low, high = 3.0, 3.4
-    while high - low > 0.01:
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if onset(middle) else (low, middle)
-    return low
+    """G up to which there is an onset below Greenhill's load."""
+    return brentq(lambda G: leading_mode(G, GREENHILL - 1e-4).real, 3.0, 3.4)
 
 
 def rest_tip(G, base=0.5 * np.pi):

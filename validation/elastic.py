@@ -113,7 +113,7 @@ def euler_column(bench):
     "V5",
     "Weight under which a column buckles",
     "Greenhill 1881: 9/4 of the squared first zero of the Bessel function of order -1/3",
-    "1e-4 asked; the constant, of docs/model.md, to 1 %: the lowest eigenvalue of stable columns extrapolated to zero",
+    "1e-4 asked; the constant, of docs/model.md 18, to 1 %: the lowest eigenvalue of stable columns extrapolated to zero",
     quick=True,
 )
 def greenhill(bench):

@@ -1,4 +1,4 @@
-"""The live node: lights sent while it runs, and a shipped scenario. C7, C8, and C2 once more."""
+"""The live node: lights sent while it runs, and a shipped scenario. C7 and C8, also in a batch, and C2 once more."""
 
 import math
 import pathlib
@@ -42,43 +42,52 @@ def seedling(gravity, light, exponent=1.0, direction=(0, 0, 1)):
     }
 
 
+def both(bench, content, lights, steps=60):
+    """How lights came to the seedling, and its last state: on the topic of a live node, and in the scenario of a batch."""
+    yield "live", bench.live(content, steps, lights)["shoot"][-1]
+    lamps = [{"id": name, "towards": list(map(float, towards)), "strength": strength} for name, towards, strength in lights]
+    yield "batch", bench.last(content | {"duration": f"{steps} min", "stimuli": {"light_directions": lamps}})
+
+
 @case(
     "C7",
-    "Light against gravity, on the topic",
+    "Light against gravity, on the topic and in the scenario",
     "tan A = ν sin P/(β + ν cos P) (Bastien, Douady and Moulia 2015, PLoS Comput. Biol. 11:e1004037)",
     "0.2° asked: an organ of ten convergence lengths is within e⁻¹⁰ of it",
-    interface="node",
+    interface="node, batch",
     quick=True,
 )
 def photogravitropism(bench):
     for degrees, ratio in ((100.0, 0.5), (60.0, 2.0)):
         light = math.radians(degrees)
-        towards = [math.sin(light), 0.0, math.cos(light)]
-        state = bench.live(seedling(0.8, 0.8 * ratio), 60, [("window", towards, 1.0)])["shoot"][-1]
+        lights = [("window", [math.sin(light), 0.0, math.cos(light)], 1.0)]
         expected = math.degrees(math.atan2(ratio * math.sin(light), 1.0 + ratio * math.cos(light)))
-        measured = math.degrees(math.atan2(state.tangent[0], state.tangent[2]))
-        yield check(f"light at {degrees:.0f}°, ν/β = {ratio}: angle of the tip [deg]", expected, measured, 0.2)
+        for how, state in both(bench, seedling(0.8, 0.8 * ratio), lights):
+            measured = math.degrees(math.atan2(state.tangent[0], state.tangent[2]))
+            what = f"light at {degrees:.0f}°, ν/β = {ratio}, {how}: angle of the tip [deg]"
+            yield check(what, expected, measured, 0.2)
 
 
 @case(
     "C8",
-    "Two lights and an answer to a power of the intensity, on the topic",
+    "Two lights and an answer to a power of the intensity, on the topic and in the scenario",
     "azimuth atan(I₂^α/I₁^α) (Meroz 2026, review, eq. 10, quoted in the cases); equal lights from opposite sides cancel",
     "0.5° asked",
-    interface="node",
+    interface="node, batch",
 )
 def two_lights(bench):
     exponent = 0.4
     for first, second in ((1.0, 3.0), (8.0, 1.0)):
         lights = [("east", (1.0, 0.0, 0.0), first), ("north", (0.0, 1.0, 0.0), second)]
-        state = bench.live(seedling(0.2, 0.6, exponent), 60, lights)["shoot"][-1]
         expected = math.degrees(math.atan2(second**exponent, first**exponent))
-        measured = math.degrees(math.atan2(state.tangent[1], state.tangent[0]))
-        yield check(f"intensities {first:.0f} and {second:.0f}: azimuth of the tip [deg]", expected, measured, 0.5)
+        for how, state in both(bench, seedling(0.2, 0.6, exponent), lights):
+            measured = math.degrees(math.atan2(state.tangent[1], state.tangent[0]))
+            what = f"intensities {first:.0f} and {second:.0f}, {how}: azimuth of the tip [deg]"
+            yield check(what, expected, measured, 0.5)
     lights = [("east", (1.0, 0.0, 0.0), 2.0), ("west", (-1.0, 0.0, 0.0), 2.0)]
-    state = bench.live(seedling(0.2, 0.6, exponent), 60, lights)["shoot"][-1]
-    tilt = math.degrees(math.hypot(state.tangent[0], state.tangent[1]))
-    yield check("equal lights from opposite sides: tilt of the tip [deg]", 0.0, tilt, 0.5)
+    for how, state in both(bench, seedling(0.2, 0.6, exponent), lights):
+        tilt = math.degrees(math.hypot(state.tangent[0], state.tangent[1]))
+        yield check(f"equal lights from opposite sides, {how}: tilt of the tip [deg]", 0.0, tilt, 0.5)
 
 
 @case(

@@ -115,7 +115,7 @@ def dynamics(bench):
 @case(
     "P6",
     "Law 2 near self-buckling needs short steps",
-    "steps beyond 2 (1 - S/S_c) of the straightening time, here 0.086, diverge (docs/model.md 11.2)",
+    "steps beyond 2 (1 - S/S_c) of the straightening time, here 0.086, diverge (docs/model.md 11.1)",
     "upright to 1e-2 of the length, or leaning by more than ten times that",
 )
 def short_steps(bench):
