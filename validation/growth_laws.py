@@ -126,7 +126,7 @@ def onset(bench):
         return angle_from_upright(bench.last(content)) / 0.01
 
     what = "G = 1, S = 0, the sine law: A/A₀ of the tip at t = 3 (steps doubled)"
-    yield converging(what, j0(2.0 * math.sqrt(3.0)), weightless, 60, 1e-3)
+    yield converging(what, j0(2.0 * math.sqrt(3.0)), weightless, 30, 1e-3)
     loads = (1.0, 3.0, 5.0, 6.5, 7.5)
     rates = [motion(4.0, load)[0] for load in loads]
     yield at_most("G = 4: rates at S = 1, 3, 5, 6.5, 7.5, no onset below Greenhill's load", 0.0, rates)
