@@ -43,12 +43,12 @@ TEST(Namespaces, RemappedTopicsWork) {
   EXPECT_EQ(b.send(lamps, lamp(PointSource::ADD, "remapped", {0.1, 0.0, 0.1})).id, "remapped");
 }
 
-TEST(Namespaces, EveryTopicCanBeRemapped) {
+TEST(Namespaces, EveryTopicCanBeRemappedAndServicesToo) {
   const std::string c = "/c/sensory_growth";
   Step step;
   step.request.steps = 3;
-  ASSERT_TRUE(ros::service::waitForService(c + "/step", ros::Duration(kPatience.count())));
-  ASSERT_TRUE(callService(c + "/step", step) && step.response.success) << step.response.message;
+  ASSERT_TRUE(ros::service::waitForService("/elsewhere/step", ros::Duration(kPatience.count())));
+  ASSERT_TRUE(callService("/elsewhere/step", step) && step.response.success) << step.response.message;
 
   XmlRpc::XmlRpcValue request, response, state;
   request[0] = ros::this_node::getName();

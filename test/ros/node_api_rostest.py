@@ -12,6 +12,7 @@ import rospy
 import rosservice
 import rostest
 import yaml
+from dynamic_reconfigure.msg import ConfigDescription
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
@@ -24,9 +25,20 @@ ROSCPP_SERVICES = {"get_loggers", "set_logger_level"}
 
 def rows(heading):
     """The cells of the table below a heading, without the marks of code."""
-    section = PAGE.read_text().split(f"\n## {heading}\n")[1].split("\n## ")[0]
-    lines = [line for line in section.splitlines() if line.startswith("| `")]
-    return [[cell.strip().replace("`", "") for cell in line.strip("|").split(" | ")] for line in lines]
+    return [[cell.replace("`", "") for cell in cells] for cells in marked_rows(heading)]
+
+
+def marked_rows(heading):
+    lines = [line for line in section(heading).splitlines() if line.startswith("| `")]
+    return [[cell.strip() for cell in line.strip("|").split(" | ")] for line in lines]
+
+
+def section(heading):
+    return PAGE.read_text().split(f"\n## {heading}\n")[1].split("\n## ")[0]
+
+
+def marked(text):
+    return re.findall(r"`(\w+)`", text)
 
 
 class NodeApi(unittest.TestCase):
@@ -64,6 +76,16 @@ class NodeApi(unittest.TestCase):
         shown = {name for name in self.names(self.services) if name.split("/")[-1] not in ROSCPP_SERVICES}
         self.assertEqual(set(table), shown)
         self.assertEqual(table, {service: rosservice.get_service_type(service) for service in table})
+
+    def test_what_services_take(self):
+        for service, _, takes, _ in marked_rows("Services"):
+            kind = rosservice.get_service_class_by_name(self.resolve(service.strip("`")))
+            self.assertEqual(marked(takes), kind._request_class.__slots__, service)
+
+    def test_live_parameters(self):
+        told = marked(section("Live parameters").split(" may")[0])
+        shown = rospy.wait_for_message(self.node + "/parameter_descriptions", ConfigDescription, PATIENCE)
+        self.assertEqual(set(told), {parameter.name for group in shown.groups for parameter in group.parameters})
 
     def test_what_is_latched(self):
         unasked = {"/clock", "/diagnostics", "~stimulus_handles/update"}  # come by themselves again and again

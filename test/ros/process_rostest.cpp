@@ -62,6 +62,15 @@ TEST_F(Process, RefusesWallTimeWhenSimulatedTimeIsInUse) {
   expectRefusal({"needs /use_sim_time to be false"});
 }
 
+TEST_F(Process, RefusesAClockThatNobodyHeeds) {
+  ros::param::set("/use_sim_time", false);
+  for (const std::string mode : {"publish", "follow"}) {
+    set("clock_mode", mode);
+    expectRefusal({"needs /use_sim_time to be true"});
+  }
+  ros::param::set("/use_sim_time", true);
+}
+
 TEST_F(Process, InterruptedWhileRunningLeavesAClosedBag) {
   for (const int signal : {SIGINT, SIGTERM}) {
     const std::string file = "interrupted_" + std::to_string(signal) + ".bag";

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 #include "ros/marker_lint.h"
@@ -37,6 +39,17 @@ void expectClean(const std::string& file) {
     const simulation::StepReport report = simulation.step();
     ASSERT_TRUE(report.ok) << report.message;
   }
+}
+
+TEST(ShippedDisplays, AreFixedToTheWorld) {
+  int displays = 0;
+  for (const auto& entry : std::filesystem::directory_iterator("../rviz")) {
+    std::ifstream file(entry.path());
+    const std::string text((std::istreambuf_iterator<char>(file)), {});
+    EXPECT_NE(text.find("\n    Fixed Frame: " + Parameters().world_frame + "\n"), std::string::npos) << entry.path();
+    ++displays;
+  }
+  EXPECT_EQ(displays, 2);
 }
 
 TEST(ShippedScenarios, HaveMarkersThatPleaseRviz) {

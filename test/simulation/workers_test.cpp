@@ -73,7 +73,6 @@ TEST(Workers, FinishTheOthersAndReportTheFirstError) {
 
 TEST(Workers, RefuseANegativeNumberOfThreads) { EXPECT_THROW(Workers(-1), std::invalid_argument); }
 
-// Threads of the standard library, because a thread sanitizer does not see what oneTBB orders.
 TEST(Simulations, InThreadsDoNotMeet) {
   const auto grow = [](std::uint64_t& sum) {
     Simulation simulation(loadScenario("../config/dodder_and_host.yaml"), 1);
