@@ -198,7 +198,10 @@ TEST_F(Process, AFloodOfAnyKindLeavesPaceMemoryLogAndServices) {
 
     statuses.forget();
     const auto running = std::chrono::steady_clock::now();
-    EXPECT_LT(secondsTo(kSteps, node), kManyTimes * alone);
+    const double flooded = secondsTo(kSteps, node);
+    if (!kHasSanitizer) {
+      EXPECT_LT(flooded, kManyTimes * alone);
+    }
     if (!kind.is_seen_by_simulation) {
       EXPECT_LT(statuses.all().size(), 2 * kSteps + 2 * kRefreshesPerSecond * secondsSince(running));
     }
