@@ -49,9 +49,10 @@ simulation::StepReport Run::step() {
 
 simulation::AppliedCommand Run::apply(const simulation::Command& command) {
   simulation::AppliedCommand applied = simulation_.apply(command);
+  const bool is_done = applied.refusal.empty();
+  if (is_done) setSnapshot(snapshot_->stamp);  // who hears of a command finds it done
   showApplied();
-  if (applied.refusal.empty()) {
-    setSnapshot(snapshot_->stamp);
+  if (is_done) {
     if (changesOrgans(command)) {
       listener_.onOrgans(snapshot_);
     } else {

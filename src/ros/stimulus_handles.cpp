@@ -183,11 +183,22 @@ void StimulusHandles::move(Handle& handle, const Feedback& feedback) {
   if (feedback.header.frame_id.empty() || feedback.header.frame_id == settings_->frame) handle.stimulus = moved;
 }
 
+/// As it was asked to be, or as it is in force since: it may have changed without having been shown.
+StimulusCommand StimulusHandles::current(const Handle& handle) const {
+  StimulusCommand stimulus = handle.stimulus;
+  const SnapshotPtr snapshot = latest_();
+  if (handle.asked_at == snapshot) return stimulus;
+  forEach(snapshot->environment, [&stimulus](const StimulusCommand& in_force) {
+    if (in_force.kind == stimulus.kind && in_force.id == stimulus.id) stimulus = in_force;
+  });
+  return stimulus;
+}
+
 void StimulusHandles::setStrength(const Feedback& feedback, const std::function<double(double)>& change) {
   const auto entry = handles_.find(feedback.marker_name);
   if (entry == handles_.end()) return;
   Handle& handle = entry->second;
-  StimulusCommand changed = handle.stimulus;
+  StimulusCommand changed = current(handle);
   changed.strength = change(changed.strength);
   receive_(changed, {});
   if (findFault(changed)) return;

@@ -53,6 +53,7 @@ class StimulusHandles {
   void onFeedback(const Feedback& feedback);
   void onNewHandleFeedback(const Feedback& feedback);
   void move(Handle& handle, const Feedback& feedback);
+  simulation::StimulusCommand current(const Handle& handle) const;
   void setStrength(const Feedback& feedback, const std::function<double(double)>& change);
   void remove(const Feedback& feedback);
   void add(simulation::StimulusKind kind, const rod::Vector3& vector, const Feedback& feedback);
