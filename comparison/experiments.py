@@ -54,11 +54,11 @@ def beyond_upright(angle):
 
 def laid(program, law, G, S, elements=80, step=0.05):
     """A straight shoot laid on its side: whether and where it comes to rest, how far beyond that and beyond upright it
-    went, how long it took. What happens between two steps is seen, too, except under relaxation, where a shoot at a
-    horizontal clamp never rests; that one is followed until it is wound up."""
-    duration, every = (600.0 / G, 4) if law == "relaxation" else (40.0, 1)
+    went, how long it took. Under relaxation a shoot at a horizontal clamp never rests; that one is followed until it is
+    wound up."""
+    duration = 600.0 / G if law == "relaxation" else 40.0
     content = shoot.scenario(law, G, S, [1, 0, 0], duration, step, elements)
-    centrelines, ended = shoot.grow(program, content, every)
+    centrelines, ended = shoot.grow(program, content)
     tangent = shoot.tip_tangents(centrelines)
     angle = np.unwrap(np.arctan2(tangent[:, 0], tangent[:, 2]))  # from upright, towards where the base points
     last = centrelines[-len(centrelines) // 10 :]
@@ -66,10 +66,10 @@ def laid(program, law, G, S, elements=80, step=0.05):
     away = np.flatnonzero(np.abs(angle - angle[-1]) > SETTLED)
     unresolved = np.flatnonzero(shoot.largest_turns(centrelines) > RESOLVED)
     shown = unresolved[0] if len(unresolved) else len(centrelines)
-    thinned = 4 // every
+    thinned = 4
     return {
         "ended": ended,
-        "end_time": (len(centrelines) - 1) * step * every,
+        "end_time": (len(centrelines) - 1) * step,
         "rests": bool(resting),
         "largest_jump": float(np.max(np.linalg.norm(np.diff(last, axis=0), axis=2))),  # of any place between frames
         "tip_angle": float(np.degrees(angle[-1])),
@@ -77,9 +77,9 @@ def laid(program, law, G, S, elements=80, step=0.05):
         "aside": float(np.max(np.abs(centrelines[-1, :, 1]))),  # out of the plane it was laid in
         "overshoot": float(np.degrees(max(0.0, angle[-1] - np.min(angle)))) if resting else None,
         "beyond_upright": np.degrees(beyond_upright(angle)),
-        "settling_time": float((away[-1] + 1) * step * every) if resting and len(away) else None,
+        "settling_time": float((away[-1] + 1) * step) if resting and len(away) else None,
         "angles": np.round(np.degrees(angle[:shown:thinned]), 3).tolist(),
-        "frame_time": step * every * thinned,
+        "frame_time": step * thinned,
         "shape": np.round(centrelines[shown - 1][:, [0, 2]], 5).tolist(),
     }
 

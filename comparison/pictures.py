@@ -46,7 +46,7 @@ def draw_behaviours(results):
 
 def draw_onset(results):
     onsets = [(G, r) for (_, G, *_), r in select(results, "onset") if r["onset"] is not None]
-    balances = np.linspace(0.2, 3.1, 60)
+    balances = np.hstack((np.linspace(0.2, 2.8, 40), np.linspace(2.82, 3.15, 40)))  # steep towards its end
     curve = np.array([theory.onset(G) for G in balances])
     figure, panels = plt.subplots(1, 2, figsize=(10, 4), constrained_layout=True)
     for axes, column, value, error in zip(panels, (0, 1), ("onset", "frequency"), ("error", "frequency_error")):
@@ -139,7 +139,7 @@ def draw_orbits(results):
         panels[1, 1].semilogy(times, run["twist"], label=f"G = {G:g}, S = {S:g}, {elements} elements", **look)
     panels[0, 1].set(title="distance of the tip from the vertical / L")
     panels[1, 0].set(title="sharpest bend × L", xlabel="time, in 1/γ", ylim=(1e-2, 300))
-    panels[1, 1].set(title="strongest twist × L", xlabel="time, in 1/γ", ylim=(1e-2, 300))
+    panels[1, 1].set(title="strongest twist × L", xlabel="time, in 1/γ", ylim=(1e-3, 300))
     panels[1, 1].legend(frameon=False, fontsize="small", loc="lower right")
     save(figure, "orbits")
 

@@ -107,6 +107,14 @@ def restless_table(results):
     return table(["law", "G", "S", "step", "largest jump / L", "tip aside / L", "tip from the shape of rest / L"], rows)
 
 
+def has_mode(upright):
+    """Whether one mode tells how an upright shoot goes on: it grows, or two halves of the record agree on it."""
+    if "rate" not in upright:
+        return False
+    agree = all(upright[f"{name}_error"] < 0.05 * abs(upright[name]) for name in ("rate", "frequency"))
+    return upright["rate"] > 0.0 or agree
+
+
 def grid_table(results):
     head = ["law", "G", "S", "tip at rest x, z", "tip angle", "overshoot", "beyond upright", "settles in"]
     head += ["rate", "frequency", "behaviour"]
@@ -115,9 +123,9 @@ def grid_table(results):
         laid, upright = point["laid"], point["disturbed"]
         rest = at_rest(laid)
         rate, frequency = f"{upright['late_rate']:.3f} late", "–"
-        if upright.get("rate", -1.0) > 0.0:
+        if has_mode(upright):
             rate = f"{upright['rate']:.3f} ± {upright['rate_error']:.3f}"
-            if upright["frequency"] > upright["frequency_error"] and upright["frequency"] > 0.1 * upright["rate"]:
+            if upright["frequency"] > upright["frequency_error"] and upright["frequency"] > 0.1 * abs(upright["rate"]):
                 frequency = f"{upright['frequency']:.3f} ± {upright['frequency_error']:.3f}"
         rows.append(
             [
@@ -197,12 +205,12 @@ def quoted_of_rest(results):
         "restless_actual": ", ".join(restless["actual"]),
         "overshoot_intrinsic": f"{min(overshooting['intrinsic']):g}",
         "overshoot_actual": f"{min(overshooting['actual']):g}",
-        "largest_overshoot": f"{max(run['overshoot'] for run in both):.0f}°",
+        "largest_overshoot": f"{max(run['overshoot'] for run in both):.1f}°",
         "longest": f"{max(run['settling_time'] or 0.0 for run in both):.1f}",
         "wound_points": f"{sum(not run['ended'] for _, _, run in laid['relaxation'])} of {len(laid['relaxation'])}",
         "wound_standing": between([G * run["end_time"] for G, run in standing], "{:.0f}"),
         "wound_all": between([G * run["end_time"] for G, _, run in laid["relaxation"]], "{:.0f}"),
-        "swung": between([run["beyond_upright"] for _, run in standing], "{:.0f}") + "°",
+        "swung": between([run["beyond_upright"] for _, run in standing], "{:.1f}") + "°",
     }
 
 
